@@ -108,6 +108,7 @@ class Map {
   ObservationState StateOf(const Observation& observation, LandmarkId id) const;
   void Attach(LandmarkId id, const Observation& observation);
   void Detach(LandmarkId id, const Observation& observation);
+  void MarkAllKnown();
 
   std::map<PhotoId, View> views_;
   std::vector<std::optional<Landmark>> landmarks_;  // By id; empty where removed.
