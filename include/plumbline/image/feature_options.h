@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace plumb {
+
+struct FeatureOptions {
+  // Features kept of a photo, the largest scales first.
+  int max_features = 5000;
+
+  // A photo with fewer features is refused: the localiser needs some 15 inliers, and of the
+  // features of a photo about a sixth finds its partner in a neighbour.
+  int min_features = 100;
+
+  // Bound on the difference of Gaussians, of the full range of grey values, at three scales an
+  // octave. COLMAP's value (0.02 / 3).
+  double min_contrast = 0.02 / 3.0;
+
+  // Bound on the ratio of the principal curvatures (Lowe, IJCV 2004, section 4.1).
+  double max_edge_ratio = 10.0;
+
+  // A photo that is more blurred is refused [px of the full resolution, for a photo of
+  // 3072 px width; scaled with the width].
+  double max_blur_px = 5.0;
+
+  // Threads of one photo's analysis; 0: one for each core. Does not change the result.
+  int num_threads = 0;
+
+  // One message per violated bound; empty if the options are usable.
+  std::vector<std::string> Problems() const;
+};
+
+// The only list of the parameter names.
+template <typename Visitor>
+void VisitFields(FeatureOptions& options, Visitor&& visit) {
+  visit("max_features", options.max_features);
+  visit("min_features", options.min_features);
+  visit("min_contrast", options.min_contrast);
+  visit("max_edge_ratio", options.max_edge_ratio);
+  visit("max_blur_px", options.max_blur_px);
+  visit("num_threads", options.num_threads);
+}
+
+}  // namespace plumb
