@@ -1,0 +1,55 @@
+# SPDX-FileCopyrightText: 2026 The Plumbline authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+# `make help` lists the targets. Debian's own python3 must come first: catkin and ROS's scripts need it.
+export PATH := /usr/bin:$(PATH)
+SHELL := /bin/bash
+BUILD ?= build
+SANITIZED := build-sanitize
+JOBS ?= $(shell nproc)
+DATA := $(or $(PLUMBLINE_DATA),$(abspath ../shared/data))
+PHOTOS ?= $(DATA)/fountain-P11/photos
+CAMERA ?= $(dir $(patsubst %/,%,$(PHOTOS)))camera.yaml
+
+.PHONY: help deps build test test-sanitize bench demo format lint clean
+
+help: ## Show the targets
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-14s %s\n", $$1, $$2}' Makefile
+
+deps: ## Install what is missing of Debian's packages (root or sudo)
+	@scripts/install_dependencies.sh
+
+$(BUILD)/CMakeCache.txt:
+	cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=RelWithDebInfo
+
+build: deps ## Build all: the core, the command line, the ROS nodes
+	@$(MAKE) --no-print-directory $(BUILD)/CMakeCache.txt
+	cmake --build $(BUILD) -j$(JOBS)
+
+test: build ## Build and run every test: the core's, the ROS graph's, and the core's under ASan and UBSan
+	cmake --build $(BUILD) -j$(JOBS) --target tests
+	source devel/setup.bash && ctest --test-dir $(BUILD) --output-on-failure
+	@$(MAKE) --no-print-directory test-sanitize
+
+test-sanitize: deps ## Run the core's tests under AddressSanitizer and UndefinedBehaviorSanitizer
+	@test -f $(SANITIZED)/CMakeCache.txt || cmake -S . -B $(SANITIZED) \
+	  -DCMAKE_BUILD_TYPE=RelWithDebInfo -DPLUMBLINE_BUILD_ROS=OFF -DPLUMBLINE_SANITIZE=ON
+	cmake --build $(SANITIZED) -j$(JOBS)
+	ctest --test-dir $(SANITIZED) --output-on-failure
+
+bench: build ## Measure accuracy and seconds a photo on the shared scenes, into build/bench
+	/usr/bin/python3 scripts/bench.py
+
+demo: build ## Fly PHOTOS= with CAMERA= through the live ROS graph and RViz (default: fountain-P11)
+	scripts/demo.sh "$(PHOTOS)" "$(CAMERA)"
+
+format: ## Format all C++ sources with clang-format-14
+	@scripts/install_dependencies.sh --lint
+	scripts/format.sh -i
+
+lint: ## Check format, clang-tidy-14, layers and generated pages
+	@scripts/install_dependencies.sh --lint
+	@$(MAKE) --no-print-directory build
+	scripts/lint.sh $(BUILD)
+
+clean: ## Remove everything that was built
+	rm -rf $(BUILD) $(SANITIZED) devel

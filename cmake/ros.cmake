@@ -1,0 +1,66 @@
+# SPDX-FileCopyrightText: 2026 The Plumbline authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The ROS side: messages, src/ros as plumb_ros, one executable for each of src/nodes, rostests.
+set(PYTHON_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "")
+set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "")
+if(CMAKE_SOURCE_DIR STREQUAL PROJECT_SOURCE_DIR AND NOT DEFINED CATKIN_DEVEL_PREFIX)
+  set(CATKIN_DEVEL_PREFIX ${PROJECT_SOURCE_DIR}/devel CACHE PATH "")
+endif()
+# Python rostests fail on the first build without it.
+file(MAKE_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib/python3/dist-packages)
+
+find_package(catkin REQUIRED COMPONENTS cv_bridge diagnostic_msgs geometry_msgs message_generation
+             nav_msgs roscpp sensor_msgs std_msgs std_srvs tf2_ros visualization_msgs)
+
+add_message_files(FILES LandmarkStates.msg MapDelta.msg ObservationStates.msg Photo.msg
+                  PhotoVerdict.msg StoredPhotos.msg ViewState.msg)
+add_service_files(FILES GetMap.srv)
+generate_messages(DEPENDENCIES geometry_msgs sensor_msgs std_msgs)
+catkin_package(CATKIN_DEPENDS message_runtime geometry_msgs sensor_msgs std_msgs)
+
+file(GLOB ros_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/ros/*.cc)
+add_library(plumb_ros STATIC ${ros_sources})
+add_dependencies(plumb_ros ${PROJECT_NAME}_generate_messages_cpp)
+target_include_directories(plumb_ros PUBLIC ${PROJECT_SOURCE_DIR}/src)
+target_include_directories(plumb_ros SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/include
+                           ${catkin_INCLUDE_DIRS})
+target_link_libraries(plumb_ros PUBLIC plumb_export ${catkin_LIBRARIES} PRIVATE plumb_warnings)
+
+# src/nodes/<name>_node.cc becomes `rosrun plumbline <name>`.
+file(GLOB node_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/nodes/*_node.cc)
+set(programs)
+foreach(source ${node_sources})
+  get_filename_component(stem ${source} NAME_WE)
+  string(REGEX REPLACE "_node$" "" name ${stem})
+  add_executable(${stem} ${source})
+  set_target_properties(${stem} PROPERTIES OUTPUT_NAME ${name} RUNTIME_OUTPUT_DIRECTORY
+                        ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
+  target_link_libraries(${stem} PRIVATE plumb_ros plumb_warnings)
+  list(APPEND programs ${stem})
+endforeach()
+if(TARGET plumbline_tool)
+  set_target_properties(plumbline_tool PROPERTIES RUNTIME_OUTPUT_DIRECTORY
+                        ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
+  list(APPEND programs plumbline_tool)
+endif()
+
+install(TARGETS ${programs} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+install(PROGRAMS scripts/fly_photos.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+install(DIRECTORY config launch rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+
+# Failures of these fail ctest; they are built by the target `tests`.
+if(CATKIN_ENABLE_TESTING)
+  find_package(rostest REQUIRED)
+  file(GLOB ros_test_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/ros/*_test.cc)
+  if(ros_test_sources)
+    add_executable(ros_test ${ros_test_sources})
+    target_include_directories(ros_test PRIVATE ${PROJECT_SOURCE_DIR})
+    target_compile_definitions(ros_test PRIVATE PLUMBLINE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    target_link_libraries(ros_test PRIVATE plumb_ros GTest::gmock GTest::gtest_main plumb_warnings)
+    add_test(NAME ros_test COMMAND ros_test)
+  endif()
+  file(GLOB rostests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/ros/*.test)
+  foreach(rostest ${rostests})
+    add_rostest(${rostest} DEPENDENCIES ${programs})
+  endforeach()
+endif()
