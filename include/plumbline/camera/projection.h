@@ -33,9 +33,9 @@ using LensParameters = std::array<T, kNumLensParameters>;
 //   g  = (1 + k1 r2 + k2 r2^2 + k3 r2^3) / (1 + k4 r2 + k5 r2^2 + k6 r2^3)
 //   x' = g x + 2 p1 x y + p2 (r2 + 2 x^2)
 //   y' = g y + p1 (r2 + 2 y^2) + 2 p2 x y
-// `lens` points to kNumLensParameters values. T may be a Ceres Jet.
-template <typename T>
-void Distort(const T* lens, const T& x, const T& y, T* distorted_x, T* distorted_y) {
+// `lens` points to kNumLensParameters values. L is double or T; T may be a Ceres Jet.
+template <typename L, typename T>
+void Distort(const L* lens, const T& x, const T& y, T* distorted_x, T* distorted_y) {
   const T r2 = x * x + y * y;
   const T numerator = 1.0 + r2 * (lens[kK1] + r2 * (lens[kK2] + r2 * lens[kK3]));
   const T denominator = 1.0 + r2 * (lens[kK4] + r2 * (lens[kK5] + r2 * lens[kK6]));
@@ -46,8 +46,8 @@ void Distort(const T* lens, const T& x, const T& y, T* distorted_x, T* distorted
 
 // Projects a point in the camera frame to raw pixels; pixel (0, 0) is the
 // top-left pixel's centre. The caller ensures a positive depth.
-template <typename T>
-void ProjectToPixel(const T* lens, const T* point_in_cam, T* pixel) {
+template <typename L, typename T>
+void ProjectToPixel(const L* lens, const T* point_in_cam, T* pixel) {
   const T x = point_in_cam[0] / point_in_cam[2];
   const T y = point_in_cam[1] / point_in_cam[2];
   T distorted_x;

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plumbline/common/options.h"
+
+namespace plumb {
+
+struct BundleOptions {
+  // Width of the Huber norm [px]: residuals beyond it count linearly. SIFT positions
+  // scatter by about half a pixel of the octave they come from.
+  double huber_width_px = 1.0;
+
+  // After a photo: it and this many of the views that share most landmarks with it move.
+  int num_local_views = 6;
+
+  // At most this many landmarks enter a local bundle, those with the longest tracks first.
+  int max_local_landmarks = 3000;
+
+  int max_local_iterations = 8;
+  int max_global_iterations = 15;
+
+  // Stop when an iteration lowers the cost by less than this fraction.
+  double function_tolerance = 1e-4;
+
+  // Of the last bundle of a session.
+  double final_function_tolerance = 1e-7;
+
+  // A global bundle starts when the number of views has grown by this factor
+  // since the last one: its cost per photo then stays bounded.
+  double global_growth_ratio = 1.25;
+
+  // Offline, a background bundle is taken in this many photos after its start.
+  int global_latency_photos = 2;
+
+  // Refine the lens that all photos share, or hold it as calibrated.
+  bool refine_focal_length = false;
+  bool refine_principal_point = false;
+  bool refine_distortion = false;
+
+  // More threads than one make a solve depend on timing in its last digits.
+  int num_threads = 1;
+
+  std::vector<std::string> Problems() const;
+};
+
+template <typename Visitor>
+void VisitFields(BundleOptions& options, Visitor&& visit) {
+  visit("huber_width_px", options.huber_width_px);
+  visit("num_local_views", options.num_local_views);
+  visit("max_local_landmarks", options.max_local_landmarks);
+  visit("max_local_iterations", options.max_local_iterations);
+  visit("max_global_iterations", options.max_global_iterations);
+  visit("function_tolerance", options.function_tolerance);
+  visit("final_function_tolerance", options.final_function_tolerance);
+  visit("global_growth_ratio", options.global_growth_ratio);
+  visit("global_latency_photos", options.global_latency_photos);
+  visit("refine_focal_length", options.refine_focal_length);
+  visit("refine_principal_point", options.refine_principal_point);
+  visit("refine_distortion", options.refine_distortion);
+  visit("num_threads", options.num_threads);
+}
+
+}  // namespace plumb

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plumbline/sfm/bundle_problem.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <unordered_map>
+
+#include "plumbline/geometry/similarity3.h"
+#include "sfm/covisibility.h"
+
+namespace plumb {
+namespace {
+
+// Copies views and landmarks of a map into a problem, each once.
+class ProblemBuilder {
+ public:
+  ProblemBuilder(const Map& map, const LensParameters<double>& lens) : map_(map) {
+    problem_.lens = lens;
+  }
+
+  void AddView(PhotoId photo, bool is_fixed) { ViewIndex(photo, is_fixed); }
+
+  // All observations of the landmark; views not added before come in fixed. Points behind a
+  // camera are left out of it: the cost has no value there.
+  void AddLandmark(LandmarkId id) {
+    const Landmark& landmark = map_.landmark(id);
+    const auto landmark_idx = static_cast<std::uint32_t>(problem_.landmarks.size());
+    problem_.landmarks.push_back({id, landmark.position_in_map});
+    for (const Observation& observation : landmark.track) {
+      const View& view = map_.view(observation.photo);
+      if ((view.cam_from_map * landmark.position_in_map).z() <= 0.0) continue;
+      problem_.observations.push_back({ViewIndex(observation.photo, /*is_fixed=*/true),
+                                       landmark_idx,
+                                       map_.PixelOf(observation),
+                                       1.0});
+    }
+  }
+
+  BundleProblem Take() { return std::move(problem_); }
+
+ private:
+  std::uint32_t ViewIndex(PhotoId photo, bool is_fixed) {
+    const auto next = static_cast<std::uint32_t>(problem_.views.size());
+    const auto [it, is_new] = view_indices_.try_emplace(photo, next);
+    if (is_new) problem_.views.push_back({photo, map_.view(photo).cam_from_map, is_fixed});
+    return it->second;
+  }
+
+  const Map& map_;
+  BundleProblem problem_;
+  std::unordered_map<PhotoId, std::uint32_t> view_indices_;
+};
+
+Similarity3 MotionOf(const BundleView& before, const BundleView& after) {
+  const Rigid3 motion = after.cam_from_map.Inverse() * before.cam_from_map;
+  return {1.0, motion.rotation, motion.translation};
+}
+
+}  // namespace
+
+BundleProblem MakeGlobalBundle(const Map& map, const LensParameters<double>& lens) {
+  ProblemBuilder builder(map, lens);
+  for (const auto& [photo, view] : map.views()) builder.AddView(photo, /*is_fixed=*/false);
+  for (const LandmarkId id : map.LandmarkIds()) builder.AddLandmark(id);
+  return builder.Take();
+}
+
+BundleProblem MakeLocalBundle(const BundleOptions& options,
+                              const Map& map,
+                              const LensParameters<double>& lens,
+                              PhotoId photo) {
+  ProblemBuilder builder(map, lens);
+  std::vector<PhotoId> free_views = {photo};
+  for (const CovisibleView& other : CovisibleViews(map, photo)) {
+    if (static_cast<int>(free_views.size()) > options.num_local_views) break;
+    free_views.push_back(other.photo);
+  }
+  // Something must hold the gauge where the surroundings are the whole map.
+  const bool is_whole_map = free_views.size() == map.views().size();
+  const PhotoId oldest = *std::min_element(free_views.begin(), free_views.end());
+  for (const PhotoId free_view : free_views) {
+    builder.AddView(free_view, is_whole_map && free_view == oldest);
+  }
+  for (const LandmarkId id : LongestTracks(map, free_views, options.max_local_landmarks)) {
+    builder.AddLandmark(id);
+  }
+  return builder.Take();
+}
+
+void ApplyBundle(const BundleProblem& problem, Map* map) {
+  for (const BundleView& view : problem.views) {
+    if (!view.is_fixed) map->MoveView(view.photo, view.cam_from_map);
+  }
+  for (const BundleLandmark& landmark : problem.landmarks) {
+    map->MoveLandmark(landmark.id, landmark.position_in_map);
+  }
+}
+
+void ApplyStaleBundle(const BundleProblem& before, const BundleProblem& after, Map* map) {
+  std::map<PhotoId, Similarity3> motions;  // map_from_map of each view's surroundings.
+  for (std::size_t i = 0; i < before.views.size(); ++i) {
+    if (!map->HasView(before.views[i].photo)) continue;
+    motions[before.views[i].photo] = MotionOf(before.views[i], after.views[i]);
+  }
+  for (const auto& [photo, view] : map->views()) {
+    if (motions.count(photo) != 0) continue;
+    for (const CovisibleView& other : CovisibleViews(*map, photo)) {
+      const auto motion = motions.find(other.photo);
+      if (motion == motions.end()) continue;
+      motions[photo] = motion->second;
+      break;
+    }
+  }
+  std::vector<std::optional<Eigen::Vector3d>> solved;
+  for (const BundleLandmark& landmark : after.landmarks) {
+    if (solved.size() <= landmark.id.value) solved.resize(landmark.id.value + 1);
+    solved[landmark.id.value] = landmark.position_in_map;
+  }
+  for (const LandmarkId id : map->LandmarkIds()) {
+    if (id.value < solved.size() && solved[id.value]) {
+      map->MoveLandmark(id, *solved[id.value]);
+      continue;
+    }
+    for (const Observation& observation : map->landmark(id).track) {
+      const auto motion = motions.find(observation.photo);
+      if (motion == motions.end()) continue;
+      map->MoveLandmark(id, motion->second * map->landmark(id).position_in_map);
+      break;
+    }
+  }
+  for (const auto& [photo, motion] : motions) {
+    map->MoveView(photo, TransformCamera(motion, map->view(photo).cam_from_map));
+  }
+}
+
+}  // namespace plumb
