@@ -129,8 +129,7 @@ std::optional<Eigen::Vector3d> TriangulateTwoViews(const Rigid3& cam1_from_map,
       gap2 >= (-on_ray1 - c + on_ray2).squaredNorm()) {
     return std::nullopt;
   }
-  const Eigen::Vector3d start =
-      (weight1 * on_ray1 + weight2 * (c + on_ray2)) / (weight1 + weight2);
+  const Eigen::Vector3d start = (weight1 * on_ray1 + weight2 * (c + on_ray2)) / (weight1 + weight2);
   const std::optional<Eigen::Vector3d> point = Refine(views.data(), 2, 2, start);
   if (!point) return std::nullopt;
   return *point + center1;
