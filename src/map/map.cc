@@ -118,7 +118,7 @@ void Map::AddObservation(LandmarkId id, const Observation& observation) {
   Attach(id, observation);
 }
 
-void Map::RemoveObservation(const Observation& observation) {
+void Map::RemoveObservation(Observation observation) {
   const LandmarkId id = LandmarkOf(observation);
   PLUMB_CHECK(id.IsValid());
   if (landmark(id).track.size() <= 2) {
@@ -159,7 +159,7 @@ void Map::Attach(LandmarkId id, const Observation& observation) {
   }
 }
 
-void Map::Detach(LandmarkId id, const Observation& observation) {
+void Map::Detach(LandmarkId id, Observation observation) {
   View& view = MutableView(observation.photo);
   view.landmark_of_feature[observation.feature_idx] = LandmarkId{};
   --view.num_observations;

@@ -75,8 +75,9 @@ class Map {
 
   // The feature must be free and the landmark not yet seen in that view.
   void AddObservation(LandmarkId id, const Observation& observation);
-  // The landmark goes too if fewer than two observations are left.
-  void RemoveObservation(const Observation& observation);
+  // The landmark goes too if fewer than two observations are left. By value: the argument may
+  // be an element of the track that shrinks.
+  void RemoveObservation(Observation observation);
   // Moves the observations of `gone` to `kept`; where both are seen in one view, kept's stays.
   void MergeLandmarks(LandmarkId kept, LandmarkId gone);
 
@@ -107,7 +108,7 @@ class Map {
   LandmarkState StateOf(LandmarkId id) const;
   ObservationState StateOf(const Observation& observation, LandmarkId id) const;
   void Attach(LandmarkId id, const Observation& observation);
-  void Detach(LandmarkId id, const Observation& observation);
+  void Detach(LandmarkId id, Observation observation);
   void MarkAllKnown();
 
   std::map<PhotoId, View> views_;
