@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sfm/hints.h"
+
+namespace plumb {
+
+std::string HintFor(RefusalReason reason, const std::string& other) {
+  const std::string likest = other.empty() ? "the last accepted photo" : other;
+  switch (reason) {
+    case RefusalReason::kNoOverlap:
+      return "shows nothing of the model; go back until the picture overlaps " + likest +
+             " by two thirds";
+    case RefusalReason::kTooFewInliers:
+      return "too little in common with " + likest + "; take a photo half-way between";
+    case RefusalReason::kAmbiguous:
+      return "fits two places that look alike; step back or show something unique, such as a "
+             "corner or a door";
+    case RefusalReason::kNoParallax:
+      return "taken from the same spot as " + likest +
+             "; move sideways by a tenth of the distance to the wall";
+    case RefusalReason::kDuplicate:
+      return "the same file as " + likest + "; nothing is lost";
+    default:
+      return "";
+  }
+}
+
+std::string FirstPhotoHint() {
+  return "the first photo; take the next one a tenth of the wall's distance to the side";
+}
+
+}  // namespace plumb

@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plumbline/sfm/mapper.h"
+
+#include <utility>
+
+#include "plumbline/common/check.h"
+#include "sfm/expander.h"
+#include "sfm/mapper_impl.h"
+
+namespace plumb {
+namespace {
+
+// Rounds of completing tracks, bundling and culling at the end of a session.
+constexpr int kNumFinalRounds = 3;
+
+}  // namespace
+
+Mapper::Impl::Impl(const MapperOptions& options, const Camera& camera, MapperListener* listener)
+    : options_(options),
+      camera_(camera),
+      listener_(listener),
+      retrieval_(options.retrieval),
+      matches_(options.matcher),
+      background_(options.bundle) {
+  ThrowIfProblems("mapper", options.Problems());
+  PLUMB_CHECK(listener != nullptr);
+}
+
+void Mapper::Impl::Add(MapperPhoto photo) {
+  since_add_.Restart();
+  PLUMB_CHECK(states_.count(photo.id) == 0);
+  ++num_photos_;
+  PhotoState& state = states_[photo.id];
+  state.verdict.photo = photo.id;
+  state.verdict.name = photo.name;
+  state.verdict.attempt = 0;
+  state.verdict.seconds.decode_s = photo.analysis.decode_s;
+  state.verdict.seconds.features_s = photo.analysis.features_s;
+  state.verdict.seconds.verdict_s = photo.seconds_since_arrival;
+  ManageBackground();
+  if (RefuseWithoutMap(photo)) return;
+
+  const PhotoId id = photo.id;
+  records_[id] = MakePhotoRecord(
+      camera_, id, photo.name, photo.exposure_time, std::move(photo.analysis.features));
+  if (map_.views().empty()) {
+    TryStart(id);
+  } else {
+    TryAccept(id);
+    ReconsiderStart(id);
+  }
+  retrieval_.Add(id, records_.at(id).features->descriptors);
+  RetryQueued(options_.max_retries_per_photo);
+  ManageBackground();
+}
+
+void Mapper::Impl::Poll() {
+  if (!options_.deterministic) ManageBackground();
+  RetryQueued(1);
+}
+
+void Mapper::Impl::Finish() {
+  if (background_.IsRunning()) TakeBackground();
+  RetryAllPending();
+  retry_queue_.clear();
+  for (const PhotoId photo : PendingPhotos()) {
+    const PhotoVerdict& verdict = states_.at(photo).verdict;
+    if (verdict.status != VerdictStatus::kWaiting) continue;
+    const RefusalReason reason =
+        verdict.reason == RefusalReason::kNone ? RefusalReason::kNoOverlap : verdict.reason;
+    PublishRefusal(photo, reason, VerdictStatus::kRefused, {});
+  }
+  if (!map_.views().empty()) FinalBundle();
+}
+
+void Mapper::Impl::Restore(std::vector<MapperPhoto> photos,
+                           const std::vector<PhotoVerdict>& verdicts,
+                           const MapDelta& snapshot) {
+  PLUMB_CHECK(states_.empty());
+  if (snapshot.lens) AdoptLens(*snapshot.lens);
+  std::map<PhotoId, std::shared_ptr<const FeatureSet>> features;
+  for (MapperPhoto& photo : photos) {
+    ++num_photos_;
+    PhotoState& state = states_[photo.id];
+    state.verdict.photo = photo.id;
+    state.verdict.name = photo.name;
+    photo_of_hash_.try_emplace(photo.analysis.content_hash, photo.id);
+    if (photo.analysis.status != PhotoStatus::kOk) continue;
+    PhotoRecord& record = records_[photo.id];
+    record = MakePhotoRecord(
+        camera_, photo.id, photo.name, photo.exposure_time, std::move(photo.analysis.features));
+    features[photo.id] = record.features;
+    retrieval_.Add(photo.id, record.features->descriptors);
+  }
+  for (const PhotoVerdict& verdict : verdicts) states_.at(verdict.photo).verdict = verdict;
+  map_ = Map::FromSnapshot(snapshot, features);
+  num_views_at_last_bundle_ = map_.views().size();
+  for (const auto& [photo, view] : map_.views()) last_accepted_ = photo;
+}
+
+// Takes in a background bundle when it is due and starts one when the map has grown.
+void Mapper::Impl::ManageBackground() {
+  const bool is_due =
+      options_.deterministic
+          ? num_photos_ >=
+                background_start_ + static_cast<std::size_t>(options_.bundle.global_latency_photos)
+          : background_.IsDone();
+  if (background_.IsRunning() && is_due) TakeBackground();
+
+  const std::size_t num_views = map_.views().size();
+  const bool is_local_enough =
+      num_views <= static_cast<std::size_t>(options_.bundle.num_local_views) + 1;
+  const bool has_grown =
+      static_cast<double>(num_views) >=
+      options_.bundle.global_growth_ratio * static_cast<double>(num_views_at_last_bundle_);
+  if (background_.IsRunning() || is_local_enough || !has_grown) return;
+  num_views_at_last_bundle_ = num_views;
+  background_start_ = num_photos_;
+  background_.Start(MakeGlobalBundle(map_, camera_.lens()));
+}
+
+void Mapper::Impl::TakeBackground() {
+  const BackgroundBundle::Outcome outcome = background_.Take();
+  if (!outcome.report.is_usable) return;
+  ApplyStaleBundle(outcome.before, outcome.after, &map_);
+  AdoptLens(outcome.after.lens);
+  CullLandmarks(options_.expander, camera_, map_.LandmarkIds(), &map_);
+  EmitDelta();
+}
+
+void Mapper::Impl::AdoptLens(const LensParameters<double>& lens) {
+  if (lens == camera_.lens()) return;
+  camera_ = Camera(camera_.name(), camera_.width_px(), camera_.height_px(), camera_.model(), lens);
+  map_.SetLens(lens);
+  for (auto& [photo, record] : records_) UpdateRays(camera_, &record);
+}
+
+void Mapper::Impl::FinalBundle() {
+  for (int i = 0; i < kNumFinalRounds; ++i) {
+    CompleteTracks(options_.expander, camera_, matches_, map_.LandmarkIds(), &map_);
+    BundleProblem problem = MakeGlobalBundle(map_, camera_.lens());
+    const BundleReport report = SolveBundle(options_.bundle,
+                                            options_.bundle.max_global_iterations,
+                                            options_.bundle.final_function_tolerance,
+                                            nullptr,
+                                            &problem);
+    if (report.is_usable) {
+      ApplyBundle(problem, &map_);
+      AdoptLens(problem.lens);
+    }
+    CullLandmarks(options_.expander, camera_, map_.LandmarkIds(), &map_);
+  }
+  num_views_at_last_bundle_ = map_.views().size();
+  EmitDelta();
+}
+
+Mapper::Mapper(const MapperOptions& options, const Camera& camera, MapperListener* listener)
+    : impl_(std::make_unique<Impl>(options, camera, listener)) {}
+
+Mapper::~Mapper() = default;
+
+void Mapper::Add(MapperPhoto photo) { impl_->Add(std::move(photo)); }
+
+void Mapper::Poll() { impl_->Poll(); }
+
+void Mapper::Finish() { impl_->Finish(); }
+
+void Mapper::Restore(std::vector<MapperPhoto> photos,
+                     const std::vector<PhotoVerdict>& verdicts,
+                     const MapDelta& snapshot) {
+  impl_->Restore(std::move(photos), verdicts, snapshot);
+}
+
+const Map& Mapper::map() const { return impl_->map(); }
+
+const Camera& Mapper::camera() const { return impl_->camera(); }
+
+}  // namespace plumb

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include "sfm/expander.h"
+#include "sfm/mapper_impl.h"
+#include "sfm/track_geometry.h"
+
+namespace plumb {
+namespace {
+
+// The reason nearest to success tells the pilot most.
+int Nearness(RefusalReason reason) {
+  switch (reason) {
+    case RefusalReason::kNoParallax:
+      return 3;
+    case RefusalReason::kAmbiguous:
+      return 2;
+    case RefusalReason::kTooFewInliers:
+      return 1;
+    default:
+      return 0;
+  }
+}
+
+}  // namespace
+
+// The best pair of the photo and the earlier ones that look most like it.
+std::optional<InitialPair> Mapper::Impl::BestPairWith(PhotoId photo, PairSearch* search) {
+  const PhotoRecord& record = records_.at(photo);
+  std::optional<InitialPair> best;
+  const int num_wanted = options_.bootstrap.max_partners + 1;
+  for (const RankedView& ranked : retrieval_.Query(record.features->descriptors, num_wanted)) {
+    if (ranked.photo == photo) continue;
+    const PhotoRecord& other = records_.at(ranked.photo);
+    search->partners.push_back(ranked.photo);
+    const PairAttempt attempt =
+        TryInitialPair(options_.bootstrap, camera_, other, record, matches_.Match(other, record));
+    if (!attempt.pair) {
+      if (Nearness(attempt.reason) >= Nearness(search->reason)) search->reason = attempt.reason;
+      continue;
+    }
+    if (!best || attempt.pair->score > best->score) best = attempt.pair;
+  }
+  return best;
+}
+
+void Mapper::Impl::TryStart(PhotoId photo) {
+  PairSearch search;
+  const auto pair = BestPairWith(photo, &search);
+  if (pair) {
+    StartFrom(*pair);
+    return;
+  }
+  Location nowhere;
+  nowhere.views = search.partners;
+  const bool is_first = states_.size() == 1;
+  PublishRefusal(
+      photo, is_first ? RefusalReason::kNone : search.reason, VerdictStatus::kWaiting, nowhere);
+}
+
+// A young map gives way to one from a better pair: its first pair may have had little parallax
+// or shown something else than the facade.
+void Mapper::Impl::ReconsiderStart(PhotoId photo) {
+  const bool is_young =
+      initial_pair_ && static_cast<int>(map_.views().size()) <= options_.bootstrap.max_young_views;
+  if (!is_young) return;
+  const bool is_outside = !map_.HasView(photo);
+  const bool is_good = initial_pair_->parallax_deg >= options_.bootstrap.good_parallax_deg;
+  if (is_good && !is_outside) return;
+  PairSearch search;
+  const auto pair = BestPairWith(photo, &search);
+  if (!pair) return;
+  const bool is_better = pair->score > options_.bootstrap.min_score_gain * initial_pair_->score;
+  const bool is_outnumbered = !map_.HasView(pair->photo1) && !map_.HasView(pair->photo2) &&
+                              PendingPhotos().size() > map_.views().size();
+  if (is_better || is_outnumbered) StartFrom(*pair);
+}
+
+// What the map holds of a view, as if it had just been located.
+Mapper::Impl::Location Mapper::Impl::LocationInMap(PhotoId photo, int num_matches) const {
+  Location location;
+  location.localization.num_matches = num_matches;
+  const View& view = map_.view(photo);
+  std::vector<double> errors;
+  for (std::uint32_t i = 0; i < view.landmark_of_feature.size(); ++i) {
+    const LandmarkId id = view.landmark_of_feature[i];
+    if (!id.IsValid()) continue;
+    location.localization.inliers.push_back({i, id});
+    errors.push_back(
+        *ReprojectionError(camera_, map_, {photo, i}, map_.landmark(id).position_in_map));
+  }
+  std::sort(errors.begin(), errors.end());
+  if (!errors.empty()) location.localization.median_error_px = errors[errors.size() / 2];
+  return location;
+}
+
+void Mapper::Impl::StartFrom(const InitialPair& pair) {
+  background_.Cancel();
+  std::vector<PhotoId> left_behind;
+  for (const auto& [photo, view] : map_.views()) {
+    if (photo != pair.photo1 && photo != pair.photo2) left_behind.push_back(photo);
+  }
+  map_ = Map::SuccessorOf(map_);
+  initial_pair_ = pair;
+  num_views_at_last_bundle_ = 2;
+
+  const Rigid3 cam1_from_map = FirstCameraFromMap();
+  AddViewAt(pair.photo1, cam1_from_map);
+  AddViewAt(pair.photo2, pair.cam2_from_cam1 * cam1_from_map);
+  ExpandMap(options_.expander, camera_, matches_, records_, pair.photo2, &map_);
+  const int num_matches =
+      static_cast<int>(matches_.Match(records_.at(pair.photo1), records_.at(pair.photo2)).size());
+  for (const PhotoId photo : {pair.photo1, pair.photo2}) {
+    PublishAccepted(photo, LocationInMap(photo, num_matches));
+  }
+  Extend(pair.photo2);
+  for (const PhotoId photo : left_behind) {
+    states_.at(photo).verdict.status = VerdictStatus::kWaiting;
+  }
+  RetryAllPending();
+}
+
+}  // namespace plumb

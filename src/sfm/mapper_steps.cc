@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <set>
+
+#include "plumbline/common/stopwatch.h"
+#include "sfm/covisibility.h"
+#include "sfm/expander.h"
+#include "sfm/mapper_impl.h"
+
+namespace plumb {
+namespace {
+
+// The inverted file ranks all photos, located or not: this many times the wanted views are asked
+// for.
+constexpr int kRankedPerView = 6;
+
+// Features compared to see whether a refused photo lies near a new view, and the matches
+// that make it worth another try.
+constexpr int kNumQuickFeatures = 800;
+constexpr std::size_t kMinQuickMatches = 12;
+
+// Refused photos compared with each new view: bounds the time per photo.
+constexpr std::size_t kMaxPendingCompared = 64;
+
+RefusalReason ReasonOf(Localization::Status status) {
+  switch (status) {
+    case Localization::Status::kTooFewMatches:
+      return RefusalReason::kNoOverlap;
+    case Localization::Status::kTooFewInliers:
+      return RefusalReason::kTooFewInliers;
+    case Localization::Status::kAmbiguous:
+      return RefusalReason::kAmbiguous;
+    case Localization::Status::kOk:
+      break;
+  }
+  return RefusalReason::kNone;
+}
+
+}  // namespace
+
+// The views that look most like the photo, and the one located last: a pilot flies on.
+std::vector<PhotoId> Mapper::Impl::CandidateViews(PhotoId photo) const {
+  std::vector<PhotoId> views;
+  const auto num_views = static_cast<std::size_t>(options_.localizer.num_views);
+  const DescriptorMatrix& descriptors = records_.at(photo).features->descriptors;
+  for (const RankedView& ranked :
+       retrieval_.Query(descriptors, kRankedPerView * options_.localizer.num_views)) {
+    if (views.size() == num_views) break;
+    if (map_.HasView(ranked.photo)) views.push_back(ranked.photo);
+  }
+  const bool has_last = last_accepted_ && map_.HasView(*last_accepted_);
+  if (has_last && std::find(views.begin(), views.end(), *last_accepted_) == views.end()) {
+    views.push_back(*last_accepted_);
+  }
+  return views;
+}
+
+std::vector<MapMatch> Mapper::Impl::MatchWithViews(PhotoId photo,
+                                                   const std::vector<PhotoId>& views) {
+  std::set<std::pair<std::uint32_t, LandmarkId>> seen;
+  std::vector<MapMatch> matches;
+  for (const PhotoId other : views) {
+    const View& view = map_.view(other);
+    for (const FeatureMatch& match : matches_.Match(records_.at(photo), records_.at(other))) {
+      const LandmarkId id = view.landmark_of_feature[match.idx2];
+      if (!id.IsValid() || !seen.insert({match.idx1, id}).second) continue;
+      matches.push_back({match.idx1, id});
+    }
+  }
+  return matches;
+}
+
+Mapper::Impl::Location Mapper::Impl::Locate(PhotoId photo) {
+  StageSeconds& seconds = states_.at(photo).verdict.seconds;
+  Stopwatch stopwatch;
+  Location location;
+  location.views = CandidateViews(photo);
+  seconds.retrieval_s += stopwatch.Restart();
+  location.matches = MatchWithViews(photo, location.views);
+  seconds.matching_s += stopwatch.Restart();
+  const PhotoRecord& record = records_.at(photo);
+  location.localization =
+      LocalizePhoto(options_.localizer, camera_, map_, record, location.matches);
+  if (location.localization.status == Localization::Status::kOk) {
+    ExtendByGuidedMatching(
+        options_.localizer, camera_, map_, record, location.views, &location.localization);
+  }
+  seconds.pose_s += stopwatch.Restart();
+  return location;
+}
+
+bool Mapper::Impl::TryAccept(PhotoId photo) {
+  const Location location = Locate(photo);
+  if (location.localization.status != Localization::Status::kOk) {
+    PublishRefusal(
+        photo, ReasonOf(location.localization.status), VerdictStatus::kRefused, location);
+    return false;
+  }
+  PublishAccepted(photo, location);
+  AddViewAt(photo, location.localization.cam_from_map);
+  for (const MapMatch& match : location.localization.inliers) {
+    map_.AddObservation(match.landmark, {photo, match.feature_idx});
+  }
+  Stopwatch stopwatch;
+  ExpandMap(options_.expander, camera_, matches_, records_, photo, &map_);
+  states_.at(photo).verdict.seconds.expand_s = stopwatch.Seconds();
+  Extend(photo);
+  return true;
+}
+
+void Mapper::Impl::AddViewAt(PhotoId photo, const Rigid3& cam_from_map) {
+  const PhotoRecord& record = records_.at(photo);
+  map_.AddView(photo, {record.name, record.exposure_time, cam_from_map, record.features, {}, 0});
+}
+
+// Settles a new view among its neighbours.
+void Mapper::Impl::Extend(PhotoId photo) {
+  StageSeconds& seconds = states_.at(photo).verdict.seconds;
+  Stopwatch stopwatch;
+  BundleProblem problem = MakeLocalBundle(options_.bundle, map_, camera_.lens(), photo);
+  BundleOptions options = options_.bundle;
+  options.refine_focal_length = false;  // Too few views to tell the lens from the poses.
+  options.refine_principal_point = false;
+  options.refine_distortion = false;
+  const BundleReport report = SolveBundle(
+      options, options.max_local_iterations, options.function_tolerance, nullptr, &problem);
+  if (report.is_usable) ApplyBundle(problem, &map_);
+  seconds.bundle_s = stopwatch.Restart();
+
+  std::vector<LandmarkId> touched;
+  for (const BundleLandmark& landmark : problem.landmarks) touched.push_back(landmark.id);
+  for (const LandmarkId id : map_.view(photo).landmark_of_feature) {
+    if (id.IsValid()) touched.push_back(id);
+  }
+  CullLandmarks(options_.expander, camera_, touched, &map_);
+  seconds.expand_s += stopwatch.Seconds();
+  EmitDelta();
+  listener_->OnSeconds(photo, seconds);
+  QueueRetriesNear(photo);
+}
+
+void Mapper::Impl::QueueRetriesNear(PhotoId photo) {
+  const std::vector<PhotoId> pending = PendingPhotos();
+  const std::size_t first =
+      pending.size() > kMaxPendingCompared ? pending.size() - kMaxPendingCompared : 0;
+  for (std::size_t i = first; i < pending.size(); ++i) {
+    if (pending[i] == photo) continue;
+    if (std::find(retry_queue_.begin(), retry_queue_.end(), pending[i]) != retry_queue_.end())
+      continue;
+    const std::size_t num_matches =
+        MatchLargestFeatures(options_.matcher,
+                             records_.at(pending[i]).features->descriptors,
+                             records_.at(photo).features->descriptors,
+                             kNumQuickFeatures)
+            .size();
+    if (num_matches >= kMinQuickMatches) retry_queue_.push_back(pending[i]);
+  }
+}
+
+void Mapper::Impl::RetryQueued(int max_retries) {
+  for (int i = 0; i < max_retries && !retry_queue_.empty(); ++i) {
+    const PhotoId photo = retry_queue_.front();
+    retry_queue_.erase(retry_queue_.begin());
+    if (IsPending(photo)) TryAccept(photo);
+  }
+}
+
+// Tries all until none fits any more. True if any did.
+bool Mapper::Impl::RetryAllPending() {
+  bool has_grown = false;
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (const PhotoId photo : PendingPhotos()) grows = TryAccept(photo) || grows;
+    has_grown = has_grown || grows;
+  }
+  return has_grown;
+}
+
+}  // namespace plumb
