@@ -17,6 +17,14 @@ std::vector<std::string> FeatureOptions::Problems() const {
                    "greater than 0 and less than 1",
                    min_contrast);
   problems.Require(max_edge_ratio >= 1.0, "max_edge_ratio", "at least 1", max_edge_ratio);
+  problems.Require(
+      pixels_per_feature > 0.0, "pixels_per_feature", "greater than 0", pixels_per_feature);
+  problems.Require(
+      min_fill >= 0.0 && min_fill <= 1.0, "min_fill", "at least 0 and at most 1", min_fill);
+  problems.Require(max_octave_megapixels > 0.0,
+                   "max_octave_megapixels",
+                   "greater than 0",
+                   max_octave_megapixels);
   problems.Require(max_blur_px > 0.0, "max_blur_px", "greater than 0", max_blur_px);
   problems.Require(num_threads >= 0, "num_threads", "at least 0", num_threads);
   return problems.Take();

@@ -2,72 +2,101 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plumbline/image/photo_analysis.h"
 
-#include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <numeric>
-#include <opencv2/features2d.hpp>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <utility>
 
+#include "image/blur_estimate.h"
+#include "image/feature_extractor.h"
+#include "image/jpeg_raster.h"
+#include "image/opencv_raster.h"
+#include "image/photo_metadata.h"
+#include "image/stopwatch.h"
+#include "plumbline/common/options.h"
 #include "plumbline/image/content_hash.h"
 
 namespace plumb {
 namespace {
 
-double Seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+// Decoding takes some 6 bytes a pixel; no camera of a MAV comes near.
+constexpr double kMaxPixels = 200e6;
+
+std::string Describe(PhotoSize size) {
+  return std::to_string(size.width_px) + " x " + std::to_string(size.height_px);
 }
 
-struct Keys {
-  std::vector<cv::KeyPoint> keys;
-  cv::Mat descriptors;
-  int reduction = 4;
-  cv::Mat color;
-};
-
-Keys Detect(const FeatureOptions& options, const std::vector<std::uint8_t>& bytes, int reduction) {
-  Keys result;
-  result.reduction = reduction;
-  const int flag = reduction == 4   ? cv::IMREAD_REDUCED_COLOR_4
-                   : reduction == 2 ? cv::IMREAD_REDUCED_COLOR_2
-                                    : cv::IMREAD_COLOR;
-  result.color = cv::imdecode(bytes, flag | cv::IMREAD_IGNORE_ORIENTATION);
-  cv::Mat gray;
-  cv::cvtColor(result.color, gray, cv::COLOR_BGR2GRAY);
-  cv::SIFT::create(0, 3, options.min_contrast * 3, options.max_edge_ratio, 1.6)
-      ->detectAndCompute(gray, {}, result.keys, result.descriptors);
-  return result;
+bool Refuse(PhotoStatus status, std::string detail, PhotoAnalysis* analysis) {
+  analysis->status = status;
+  analysis->detail = std::move(detail);
+  return false;
 }
 
-FeatureSet Select(const FeatureOptions& options, const Keys& keys) {
-  std::vector<int> order(keys.keys.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return keys.keys[a].size > keys.keys[b].size;
-  });
-  order.resize(std::min<std::size_t>(order.size(), options.max_features));
-  FeatureSet set;
-  set.descriptors.resize(static_cast<Eigen::Index>(order.size()), kDescriptorSize);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const cv::KeyPoint& key = keys.keys[order[i]];
-    const float r = static_cast<float>(keys.reduction);
-    set.features.push_back({(key.pt.x + 0.5F) * r - 0.5F,
-                            (key.pt.y + 0.5F) * r - 0.5F,
-                            key.size * r / 2.0F,
-                            key.angle * static_cast<float>(CV_PI) / 180.0F});
-    const cv::Mat row = keys.descriptors.row(order[i]);
-    const double sum = std::max(1e-9, cv::norm(row, cv::NORM_L1));
-    for (int c = 0; c < kDescriptorSize; ++c) {
-      set.descriptors(static_cast<Eigen::Index>(i), c) = static_cast<std::uint8_t>(
-          std::min(255.0, std::round(512.0 * std::sqrt(row.at<float>(c) / sum))));
-    }
-    const int x = std::clamp(static_cast<int>(std::lround(key.pt.x)), 0, keys.color.cols - 1);
-    const int y = std::clamp(static_cast<int>(std::lround(key.pt.y)), 0, keys.color.rows - 1);
-    const cv::Vec3b bgr = keys.color.at<cv::Vec3b>(y, x);
-    set.colors.push_back({bgr[2], bgr[1], bgr[0]});
+// Reads the header: the size and the metadata.
+bool CheckHeader(const std::vector<std::uint8_t>& bytes,
+                 PhotoSize expected,
+                 PhotoAnalysis* analysis) {
+  if (bytes.empty()) {
+    return Refuse(PhotoStatus::kUndecodable, "the file is empty", analysis);
   }
-  return set;
+  analysis->metadata = ReadPhotoMetadata(bytes);
+  if (IsJpeg(bytes)) {
+    const std::optional<PhotoSize> of_header = ReadJpegSize(bytes);
+    if (!of_header) {
+      return Refuse(PhotoStatus::kUndecodable, "the header of the JPEG file is damaged", analysis);
+    }
+    analysis->metadata.width_px = of_header->width_px;
+    analysis->metadata.height_px = of_header->height_px;
+  }
+  const PhotoSize size = {analysis->metadata.width_px, analysis->metadata.height_px};
+  if (size.width_px <= 0 || size.height_px <= 0) {
+    return Refuse(PhotoStatus::kUndecodable,
+                  "the file is no photo, or of a kind that is not read; JPEG, PNG and TIFF are",
+                  analysis);
+  }
+  if (static_cast<double>(size.width_px) * size.height_px > kMaxPixels) {
+    return Refuse(PhotoStatus::kUndecodable,
+                  "the file claims " + Describe(size) + " pixels, more than 200 megapixels",
+                  analysis);
+  }
+  if (size.width_px == expected.width_px && size.height_px == expected.height_px) return true;
+  std::string detail =
+      "the photo has " + Describe(size) + " pixels, but the camera's have " + Describe(expected);
+  const bool is_swapped =
+      size.width_px == expected.height_px && size.height_px == expected.width_px;
+  detail += is_swapped
+                ? "; a program has rotated it, and only originals fit the camera's calibration"
+                : "; use the camera's originals and its own calibration";
+  return Refuse(PhotoStatus::kWrongSize, std::move(detail), analysis);
+}
+
+bool Decode(const std::vector<std::uint8_t>& bytes, DecodedPhoto* photo, PhotoAnalysis* analysis) {
+  if (IsJpeg(bytes)) *photo = DecodeJpeg(bytes);
+  if (photo->raster == nullptr && photo->problem.empty()) *photo = DecodeWithOpenCv(bytes);
+  if (photo->raster != nullptr) return true;
+  return Refuse(PhotoStatus::kUndecodable, photo->problem, analysis);
+}
+
+bool FindFeatures(const FeatureOptions& options,
+                  FeatureExtractor* extractor,
+                  PhotoAnalysis* analysis) {
+  extractor->SearchCoarse();
+  analysis->blur_px = EstimateBlur(extractor->first_octave());
+  const double max_blur_px = options.max_blur_px;
+  if (analysis->blur_px > max_blur_px) {
+    return Refuse(PhotoStatus::kTooBlurred,
+                  "blurred by about " + std::to_string(std::lround(analysis->blur_px)) +
+                      " px; hold still, focus, or use a shorter exposure",
+                  analysis);
+  }
+  extractor->SearchFiner();
+  analysis->features = extractor->Describe();
+  const int num_features = static_cast<int>(analysis->features.size());
+  if (num_features >= options.min_features) return true;
+  analysis->features = {};
+  return Refuse(PhotoStatus::kTooFewFeatures,
+                "only " + std::to_string(num_features) +
+                    " features, too few to locate it; is it too dark, too bright, or a blank wall?",
+                analysis);
 }
 
 }  // namespace
@@ -76,40 +105,21 @@ PhotoAnalysis AnalyzePhoto(const FeatureOptions& options,
                            const std::vector<std::uint8_t>& bytes,
                            int width_px,
                            int height_px) {
+  ThrowIfProblems("features", options.Problems());
   PhotoAnalysis analysis;
+  const Stopwatch decoding;
   analysis.content_hash = ContentHash(bytes.data(), bytes.size());
-  const double start = Seconds();
-  analysis.detail = "the file is no picture that can be decoded";
-  cv::Mat image;
-  try {
-    if (!bytes.empty()) image = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception&) {
-    return analysis;
-  }
-  if (image.empty()) return analysis;
-  analysis.metadata.width_px = image.cols;
-  analysis.metadata.height_px = image.rows;
-  if (image.cols != width_px || image.rows != height_px) {
-    analysis.status = PhotoStatus::kWrongSize;
-    analysis.detail = "the photo is " + std::to_string(image.cols) + " x " +
-                      std::to_string(image.rows) + " pixels, the camera's are " +
-                      std::to_string(width_px) + " x " + std::to_string(height_px);
-    return analysis;
-  }
-  analysis.decode_s = Seconds() - start;
-  for (int reduction = 4; reduction >= 1; reduction /= 2) {
-    const Keys keys = Detect(options, bytes, reduction);
-    analysis.features = Select(options, keys);
-    if (static_cast<int>(analysis.features.size()) * 2 > options.max_features) break;
-  }
-  analysis.features_s = Seconds() - start - analysis.decode_s;
-  analysis.status = PhotoStatus::kOk;
-  analysis.detail.clear();
-  if (static_cast<int>(analysis.features.size()) < options.min_features) {
-    analysis.status = PhotoStatus::kTooFewFeatures;
-    analysis.detail = "only " + std::to_string(analysis.features.size()) + " features found";
-    analysis.features = {};
-  }
+  if (!CheckHeader(bytes, {width_px, height_px}, &analysis)) return analysis;
+  DecodedPhoto photo;
+  const bool is_decoded = Decode(bytes, &photo, &analysis);
+  analysis.decode_s = decoding.Seconds();
+  if (!is_decoded) return analysis;
+
+  const Stopwatch finding;
+  FeatureExtractor extractor(options, *photo.raster, {width_px, height_px});
+  if (FindFeatures(options, &extractor, &analysis)) analysis.status = PhotoStatus::kOk;
+  analysis.decode_s += extractor.decode_s();
+  analysis.features_s = finding.Seconds() - extractor.decode_s();
   return analysis;
 }
 

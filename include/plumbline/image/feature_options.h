@@ -22,8 +22,15 @@ struct FeatureOptions {
   // Bound on the ratio of the principal curvatures (Lowe, IJCV 2004, section 4.1).
   double max_edge_ratio = 10.0;
 
-  // A photo that is more blurred is refused [px of the full resolution, for a photo of
-  // 3072 px width; scaled with the width].
+  // The search begins at the coarsest resolution that has this many pixels a feature wanted,
+  // and a finer one is added as long as less than min_fill of the features are found.
+  double pixels_per_feature = 300.0;
+  double min_fill = 0.9;
+
+  // No finer octave is searched than of this size, for its cost grows with its pixels.
+  double max_octave_megapixels = 4.0;
+
+  // A photo that is more blurred is refused: sigma in pixels of the full resolution.
   double max_blur_px = 5.0;
 
   // Threads of one photo's analysis; 0: one for each core. Does not change the result.
@@ -40,6 +47,9 @@ void VisitFields(FeatureOptions& options, Visitor&& visit) {
   visit("min_features", options.min_features);
   visit("min_contrast", options.min_contrast);
   visit("max_edge_ratio", options.max_edge_ratio);
+  visit("pixels_per_feature", options.pixels_per_feature);
+  visit("min_fill", options.min_fill);
+  visit("max_octave_megapixels", options.max_octave_megapixels);
   visit("max_blur_px", options.max_blur_px);
   visit("num_threads", options.num_threads);
 }
