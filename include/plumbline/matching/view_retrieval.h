@@ -8,19 +8,15 @@
 
 #include "plumbline/common/ids.h"
 #include "plumbline/image/features.h"
+#include "plumbline/matching/ranked_view.h"
 #include "plumbline/matching/retrieval_options.h"
 
 namespace plumb {
 
-struct RankedView {
-  PhotoId photo;
-  double score = 0.0;  // Higher is more alike; comparable within one query only.
-};
-
 // Answers which photos look like a given one. Photos are added one at a time. With a
 // trained vocabulary tree it asks an inverted file; without one it compares the
 // largest features with those of every photo, while the tree trains itself on the session's
-// own descriptors in a background thread. Not thread-safe.
+// own descriptors in a background thread; Add takes the finished tree in. Not thread-safe.
 class ViewRetrieval {
  public:
   // Loads options.vocabulary_path unless empty. Throws std::runtime_error naming the file
