@@ -18,6 +18,7 @@ target_compile_options(plumb_warnings INTERFACE -Wall -Wextra -Wconversion -Werr
 # plumb_module(<name> <libraries…>): src/<name>/*.cc as plumb_<name>.
 function(plumb_module name)
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cc)
+  list(FILTER sources EXCLUDE REGEX "_main\\.cc$")
   if(sources)
     add_library(plumb_${name} STATIC ${sources})
     target_include_directories(plumb_${name} PUBLIC ${PROJECT_SOURCE_DIR}/include
@@ -40,14 +41,15 @@ plumb_module(matching plumb_map opencv_core)
 plumb_module(sfm plumb_matching Ceres::ceres)
 plumb_module(export plumb_sfm)
 
-# The command-line program.
-file(GLOB tool_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/tools/*.cc)
-if(tool_sources)
-  add_executable(plumbline_tool ${tool_sources})
-  set_target_properties(plumbline_tool PROPERTIES OUTPUT_NAME plumbline)
-  target_include_directories(plumbline_tool PRIVATE ${PROJECT_SOURCE_DIR}/src)
-  target_link_libraries(plumbline_tool PRIVATE plumb_export CLI11::CLI11 plumb_warnings)
-endif()
+# The command-line program; all but its main is a library, so that it can be tested.
+plumb_module(tools plumb_export yaml-cpp CLI11::CLI11)
+file(STRINGS ${PROJECT_SOURCE_DIR}/package.xml version_line REGEX "<version>")
+string(REGEX REPLACE ".*<version>(.*)</version>.*" "\\1" PLUMBLINE_VERSION "${version_line}")
+add_executable(plumbline_tool ${PROJECT_SOURCE_DIR}/src/tools/plumbline_main.cc)
+set_target_properties(plumbline_tool PROPERTIES OUTPUT_NAME plumbline)
+target_include_directories(plumbline_tool PRIVATE ${PROJECT_SOURCE_DIR}/src)
+target_compile_definitions(plumbline_tool PRIVATE PLUMBLINE_VERSION="${PLUMBLINE_VERSION}")
+target_link_libraries(plumbline_tool PRIVATE plumb_tools plumb_warnings)
 
 # One test program a module: test/<name>/*_test.cc as <name>_test.
 find_package(GTest REQUIRED)
@@ -63,7 +65,7 @@ function(plumb_module_test name)
   target_link_libraries(${name}_test PRIVATE ${ARGN} GTest::gmock GTest::gtest_main plumb_warnings)
   add_test(NAME ${name}_test COMMAND ${name}_test)
 endfunction()
-foreach(module common geometry camera image map matching sfm export)
+foreach(module common geometry camera image map matching sfm export tools)
   plumb_module_test(${module} plumb_${module})
 endforeach()
 

@@ -96,7 +96,8 @@ class Solver {
     if (!RefinesLens() || !ceres_->HasParameterBlock(lens_.data())) return;
     std::vector<int> held;
     const auto hold = [&](bool is_refined, std::initializer_list<int> parameters) {
-      if (!is_refined) held.insert(held.end(), parameters);
+      if (is_refined) return;
+      for (const int parameter : parameters) held.push_back(parameter);
     };
     hold(options_.refine_focal_length, {kFx, kFy});
     hold(options_.refine_principal_point, {kCx, kCy});

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "plumbline/camera/camera.h"
+#include "plumbline/common/atomic_file.h"
+#include "plumbline/common/stopwatch.h"
+#include "plumbline/image/photo_analysis.h"
+#include "plumbline/map/run_report.h"
+#include "tools/commands.h"
+#include "tools/photo_list.h"
+
+namespace plumb::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct CheckArguments {
+  std::string photos;
+  std::string camera;
+};
+
+Json CheckPhoto(const Camera& camera, const std::string& folder, const std::string& name) {
+  const std::vector<std::uint8_t> bytes = ReadFileBytes(folder + '/' + name);
+  const double cpu_before_s = CurrentProcessUsage().cpu_s;
+  const Stopwatch stopwatch;
+  const PhotoAnalysis analysis =
+      AnalyzePhoto(FeatureOptions(), bytes, camera.width_px(), camera.height_px());
+  return {{"name", name},
+          {"usable", analysis.status == PhotoStatus::kOk},
+          {"detail", analysis.detail},
+          {"width_px", analysis.metadata.width_px},
+          {"height_px", analysis.metadata.height_px},
+          {"blur_px", analysis.blur_px},
+          {"features", analysis.features.size()},
+          {"wall_s", stopwatch.Seconds()},
+          {"cpu_s", CurrentProcessUsage().cpu_s - cpu_before_s}};
+}
+
+}  // namespace
+
+void AddCheckCommand(CLI::App* app, ExitCode* exit_code) {
+  CLI::App* command = app->add_subcommand(
+      "check",
+      "Analyse the photos of a folder without a map, one after the other. Prints one line of JSON "
+      "a photo: whether it is usable and why not, size and blur [px], number of features, wall "
+      "and CPU seconds of its decoding and features.");
+  const auto arguments = std::make_shared<CheckArguments>();
+  command->add_option("--photos", arguments->photos, "Folder of photos")->required();
+  command->add_option("--camera", arguments->camera, "Lens: ROS camera_info YAML, lengths in px")
+      ->required();
+  command->callback([arguments, exit_code] {
+    const Camera camera = ReadCameraYaml(arguments->camera);
+    for (const std::string& name : ListPhotos(arguments->photos)) {
+      const Json photo = CheckPhoto(camera, arguments->photos, name);
+      std::cout << photo.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
+    }
+    *exit_code = kDone;
+  });
+}
+
+}  // namespace plumb::tools

@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+namespace plumb::tools {
+
+// What the program says to the shell; `plumbline --help` lists them.
+enum ExitCode {
+  kDone = 0,            // Also with refused photos: the report names them.
+  kFailed = 1,          // A file, an option value or the disk; the message names it and the cure.
+  kWrongUsage = 2,      // The command line itself.
+  kNothingLocated = 3,  // All photos were taken, none could be located.
+  kInterrupted = 130    // Ended by Ctrl-C or SIGTERM; what there was is kept.
+};
+
+}  // namespace plumb::tools

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <iostream>
+
+#include "tools/commands.h"
+
+int main(int argc, char** argv) {
+  using namespace plumb::tools;
+  CLI::App app("Photos of a facade become a measured map.", "plumbline");
+  app.set_version_flag("--version", "plumbline " PLUMBLINE_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 done (the report names refused photos); 1 a file, an option value or the "
+      "disk, "
+      "named with its cure; 2 wrong usage; 3 no photo could be located; 130 ended by Ctrl-C, what "
+      "there was is kept.");
+  ExitCode exit_code = kDone;
+  AddReconstructCommand(&app, &exit_code);
+  AddCheckCommand(&app, &exit_code);
+  AddEvaluateCommand(&app, &exit_code);
+  AddExportCommand(&app, &exit_code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kDone : kWrongUsage;
+  } catch (const std::exception& error) {
+    std::cerr << "plumbline: " << error.what() << '\n';
+    return kFailed;
+  }
+  return exit_code;
+}

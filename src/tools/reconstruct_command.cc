@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <unistd.h>
+
+#include <csignal>
+#include <iostream>
+#include <memory>
+
+#include "tools/commands.h"
+#include "tools/reconstruct.h"
+
+namespace plumb::tools {
+namespace {
+
+std::atomic<bool> stop_requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler writes it");
+
+// The first Ctrl-C ends the run cleanly, the second at once.
+void RequestStop(int signal) {
+  stop_requested = true;
+  std::signal(signal, SIG_DFL);
+}
+
+}  // namespace
+
+void AddReconstructCommand(CLI::App* app, ExitCode* exit_code) {
+  CLI::App* command = app->add_subcommand(
+      "reconstruct",
+      "Locate the photos of a folder and build the map, as in flight. Prints a line for each "
+      "verdict: name, verdict, reason and hint or inliers, matches and median error [px], seconds "
+      "from the first byte to the verdict. Writes SESSION/{photos,session.db,report.json,export}. "
+      "A session that was cut off goes on where it was; photos it has answered are skipped.");
+  const auto arguments = std::make_shared<ReconstructArguments>();
+  command->add_option("--photos", arguments->photos, "Folder of photos")->required();
+  command->add_option("--camera", arguments->camera, "Lens: ROS camera_info YAML, lengths in px")
+      ->required();
+  command->add_option("--session", arguments->session, "Folder of the session, new or old")
+      ->required();
+  command->add_option("--options",
+                      arguments->options,
+                      "YAML of mapper options, units in their names (_px, _deg, _s)");
+  command->add_option("--set", arguments->settings, "KEY=VALUE: one option, after the file; repeat")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--order",
+                   arguments->order,
+                   "name (natural order), reverse, or shuffle:SEED with a whole number")
+      ->capture_default_str();
+  command->callback([arguments, exit_code] {
+    std::signal(SIGINT, RequestStop);
+    std::signal(SIGTERM, RequestStop);
+    Console console(&std::cout, ::isatty(STDOUT_FILENO) == 1);
+    *exit_code = Reconstruct(*arguments, stop_requested, &console);
+  });
+}
+
+}  // namespace plumb::tools
