@@ -13,10 +13,10 @@
 namespace plumb {
 namespace {
 
-// Of 64 bits. Measured on 128 photos around a building: of the 8 best photos by exhaustive
-// matching, the first 8 of the query hold most at a quarter of the bits.
+// Of 64 bits. From a grid of both over 128 photos around a building, words trained on the first 10:
+// best overlap of the first 8 photos with the best 8 by exhaustive matching (0.94).
 constexpr int kMaxHammingDistance = 16;
-constexpr double kHammingSigma = 12.8;
+constexpr double kHammingSigma = 6.4;
 
 std::array<float, kMaxHammingDistance + 1> MakeWeights() {
   std::array<float, kMaxHammingDistance + 1> weights = {};
@@ -43,7 +43,7 @@ class Ballot {
     const double idf =
         std::log(static_cast<double>(best_.size() + 1) / static_cast<double>(voted_.size()));
     for (std::uint32_t photo_idx : voted_) {
-      (*scores)[photo_idx] += idf * best_[photo_idx];
+      (*scores)[photo_idx] += idf * idf * best_[photo_idx];
       best_[photo_idx] = 0.0F;
     }
     voted_.clear();

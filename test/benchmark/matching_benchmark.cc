@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <benchmark/benchmark.h>
 
+#include <atomic>
 #include <opencv2/core.hpp>
 
 #include "matching/neighbor_search.h"
 #include "plumbline/matching/descriptor_matcher.h"
+#include "plumbline/matching/inverted_file.h"
+#include "plumbline/matching/vocabulary_tree.h"
 #include "test/matching/random_descriptors.h"
 
 namespace plumb {
@@ -93,6 +96,39 @@ void BM_SquaredDistance(benchmark::State& state) {
   }
 }
 BENCHMARK(BM_SquaredDistance);
+
+VocabularyTree TrainTree() {
+  const std::atomic<bool> is_cancelled{false};
+  return VocabularyTree::Train({}, RandomDescriptors(50000, 1), is_cancelled).value();
+}
+
+void BM_TrainTreeOn50000(benchmark::State& state) {
+  const DescriptorMatrix descriptors = RandomDescriptors(50000, 1);
+  const std::atomic<bool> is_cancelled{false};
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(VocabularyTree::Train({}, descriptors, is_cancelled));
+  }
+}
+BENCHMARK(BM_TrainTreeOn50000)->Unit(benchmark::kMillisecond);
+
+void BM_Quantize5000(benchmark::State& state) {
+  const VocabularyTree tree = TrainTree();
+  const DescriptorMatrix descriptors = RandomDescriptors(5000, 2);
+  for (auto _ : state) benchmark::DoNotOptimize(tree.Quantize(descriptors));
+}
+BENCHMARK(BM_Quantize5000)->Unit(benchmark::kMillisecond);
+
+// 5000 features against an inverted file of so many photos of 5000 features each.
+void BM_Query(benchmark::State& state) {
+  const VocabularyTree tree = TrainTree();
+  InvertedFile file(tree.num_words());
+  for (std::uint32_t photo = 0; photo < state.range(0); ++photo) {
+    file.Add({photo}, tree.Quantize(RandomDescriptors(5000, 10 + photo % 20)));
+  }
+  const auto words = tree.Quantize(RandomDescriptors(5000, 2));
+  for (auto _ : state) benchmark::DoNotOptimize(file.Query(words, 8));
+}
+BENCHMARK(BM_Query)->ArgName("photos")->Arg(100)->Arg(1000)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace plumb

@@ -17,9 +17,10 @@ namespace plumb {
 // A feature of the query votes once for each photo that has a feature of the same word whose
 // signature differs in at most kMaxHammingDistance bits (Jegou, Douze & Schmid, Hamming Embedding
 // and Weak Geometric Consistency, ECCV 2008). Its vote weighs
-//   exp(-h^2 / (2 kHammingSigma^2)) log((N + 1) / n),
-// h the smallest such distance in that photo, n the photos it votes for, N the photos added:
-// idf by feature instead of by word, and one vote however often a window repeats in a photo.
+//   exp(-h^2 / (2 kHammingSigma^2)) log((N + 1) / n)^2,
+// h the smallest such distance in that photo, n the photos it votes for, N the photos added: the
+// squared idf of a product of tf-idf vectors, but by feature instead of by word, and one vote
+// however often a window repeats in a photo.
 class InvertedFile {
  public:
   explicit InvertedFile(int num_words);
