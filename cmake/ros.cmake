@@ -9,8 +9,8 @@ endif()
 # Python rostests fail on the first build without it.
 file(MAKE_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib/python3/dist-packages)
 
-find_package(catkin REQUIRED COMPONENTS cv_bridge diagnostic_msgs geometry_msgs message_generation
-             nav_msgs roscpp sensor_msgs std_msgs std_srvs tf2_ros visualization_msgs)
+find_package(catkin REQUIRED COMPONENTS cv_bridge diagnostic_msgs
+             diagnostic_updater geometry_msgs message_generation nav_msgs roscpp sensor_msgs std_msgs std_srvs tf2_ros visualization_msgs)
 
 add_message_files(FILES LandmarkStates.msg MapDelta.msg ObservationStates.msg Photo.msg
                   PhotoVerdict.msg StoredPhotos.msg ViewState.msg)

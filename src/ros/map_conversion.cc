@@ -74,8 +74,7 @@ bool AppendViews(const std::vector<plumbline::ViewState>& msgs, std::vector<View
   for (const plumbline::ViewState& msg : msgs) {
     const std::optional<Rigid3> cam_from_map = FromTransformMsg(msg.cam_from_map);
     if (!cam_from_map) return false;
-    views->push_back(
-        {PhotoId{msg.photo}, msg.name, FromRosTime(msg.exposure_time), *cam_from_map});
+    views->push_back({PhotoId{msg.photo}, msg.name, FromRosTime(msg.exposure_time), *cam_from_map});
   }
   return true;
 }

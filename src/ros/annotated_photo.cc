@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ros/annotated_photo.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace plumb::ros_adapter {
+namespace {
+
+const cv::Scalar kGreen(60, 220, 60);
+const cv::Scalar kRed(60, 60, 255);
+const cv::Scalar kYellow(0, 200, 255);
+const cv::Scalar kWhite(255, 255, 255);
+const cv::Scalar kBlack(0, 0, 0);
+
+// Sizes are for a picture of this width and grow with it.
+constexpr double kReferenceWidth_px = 1280.0;
+
+const cv::Scalar& ColorOf(VerdictStatus status) {
+  switch (status) {
+    case VerdictStatus::kAccepted:
+      return kGreen;
+    case VerdictStatus::kWaiting:
+      return kYellow;
+    case VerdictStatus::kRefused:
+      return kRed;
+  }
+  return kRed;
+}
+
+cv::Mat DecodeReduced(const std::vector<std::uint8_t>& bytes, cv::Size full, cv::Size reduced) {
+  int flag = cv::IMREAD_COLOR;
+  if (full.width >= 4 * reduced.width) {
+    flag = cv::IMREAD_REDUCED_COLOR_4;
+  } else if (full.width >= 2 * reduced.width) {
+    flag = cv::IMREAD_REDUCED_COLOR_2;
+  }
+  cv::Mat photo;
+  try {
+    if (!bytes.empty()) photo = cv::imdecode(bytes, flag | cv::IMREAD_IGNORE_ORIENTATION);
+  } catch (const cv::Exception&) {
+    photo.release();  // The verdict tells that it is undecodable.
+  }
+  if (photo.empty()) return cv::Mat(reduced, CV_8UC3, cv::Scalar(90, 90, 90));
+  cv::Mat resized;
+  cv::resize(photo, resized, reduced, 0.0, 0.0, cv::INTER_AREA);
+  return resized;
+}
+
+// Pixel centres are at whole numbers in both pictures.
+void DrawPoints(const std::vector<Eigen::Vector2f>& pixels,
+                double scale,
+                const cv::Scalar& color,
+                cv::Mat* picture) {
+  const int radius = std::max(2, static_cast<int>(std::lround(picture->cols / 400.0)));
+  for (const Eigen::Vector2f& pixel : pixels) {
+    const cv::Point center(static_cast<int>(std::lround((pixel.x() + 0.5) * scale - 0.5)),
+                           static_cast<int>(std::lround((pixel.y() + 0.5) * scale - 0.5)));
+    cv::circle(*picture, center, radius + 1, kBlack, cv::FILLED, cv::LINE_AA);
+    cv::circle(*picture, center, radius, color, cv::FILLED, cv::LINE_AA);
+  }
+}
+
+struct Line {
+  std::string text;
+  double size;  // Of the letters; 1 is 22 px high.
+  cv::Scalar color;
+};
+
+std::string Spaced(std::string word) {
+  std::replace(word.begin(), word.end(), '_', ' ');
+  return word;
+}
+
+std::string Upper(std::string word) {
+  std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) {
+    return static_cast<char>(std::toupper(c));
+  });
+  return word;
+}
+
+std::vector<Line> BannerLines(const PhotoVerdict& verdict, const PhotoCounts& counts) {
+  std::string title = Upper(ToString(verdict.status)) + "  " + verdict.name;
+  if (verdict.reason != RefusalReason::kNone) title += ": " + Spaced(ToString(verdict.reason));
+  std::vector<Line> lines = {{title, 1.6, ColorOf(verdict.status)}};
+  for (const std::string& line : WrapText(verdict.hint, 68)) lines.push_back({line, 1.1, kWhite});
+  std::string facts;
+  if (verdict.num_matches > 0) {
+    facts = std::to_string(verdict.num_inliers) + " of " + std::to_string(verdict.num_matches) +
+            " matches agree.  ";
+  }
+  facts += "Session: " + std::to_string(counts.num_accepted) + " accepted, " +
+           std::to_string(counts.num_waiting) + " waiting, " + std::to_string(counts.num_refused) +
+           " refused";
+  lines.push_back({facts, 0.9, kWhite});
+  return lines;
+}
+
+// The title shrinks until a long file name fits.
+double FittingSize(const Line& line, double unit, int width_px, int thickness) {
+  const double size = line.size * unit;
+  const cv::Size extent =
+      cv::getTextSize(line.text, cv::FONT_HERSHEY_SIMPLEX, size, thickness, nullptr);
+  return extent.width <= width_px ? size : size * width_px / extent.width;
+}
+
+cv::Mat DrawBanner(const std::vector<Line>& lines, int width_px) {
+  const double unit = width_px / kReferenceWidth_px;
+  const int margin_px = static_cast<int>(std::lround(14.0 * unit));
+  double height_px = 2.0 * margin_px;
+  for (const Line& line : lines) height_px += 36.0 * line.size * unit;
+  cv::Mat banner(static_cast<int>(std::lround(height_px)), width_px, CV_8UC3, kBlack);
+  double y_px = margin_px;
+  for (const Line& line : lines) {
+    const int thickness = std::max(1, static_cast<int>(std::lround(2.0 * line.size * unit)));
+    const double size = FittingSize(line, unit, width_px - 3 * margin_px, thickness);
+    y_px += 36.0 * line.size * unit;
+    const cv::Point origin(2 * margin_px, static_cast<int>(std::lround(y_px - 8.0 * unit)));
+    cv::putText(banner, line.text, origin, cv::FONT_HERSHEY_SIMPLEX, size, line.color, thickness,
+                cv::LINE_AA);
+  }
+  banner.colRange(0, margin_px).setTo(lines.front().color);
+  return banner;
+}
+
+}  // namespace
+
+std::vector<std::string> WrapText(const std::string& text, std::size_t max_length) {
+  std::vector<std::string> lines;
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    std::size_t end = std::min(text.size(), begin + max_length);
+    if (end < text.size()) {
+      const std::size_t blank = text.rfind(' ', end);
+      if (blank != std::string::npos && blank > begin) end = blank;
+    }
+    lines.push_back(text.substr(begin, end - begin));
+    begin = end < text.size() && text[end] == ' ' ? end + 1 : end;
+  }
+  return lines;
+}
+
+cv::Mat DrawAnnotatedPhoto(const std::vector<std::uint8_t>& bytes,
+                           const PhotoVerdict& verdict,
+                           const PhotoCounts& counts,
+                           int full_width_px,
+                           int full_height_px,
+                           int max_width_px) {
+  const double scale = std::min(1.0, static_cast<double>(max_width_px) / full_width_px);
+  const cv::Size full(full_width_px, full_height_px);
+  const cv::Size reduced(std::max(1, static_cast<int>(std::lround(full_width_px * scale))),
+                         std::max(1, static_cast<int>(std::lround(full_height_px * scale))));
+  cv::Mat photo = DecodeReduced(bytes, full, reduced);
+  DrawPoints(verdict.outlier_pixels, scale, kRed, &photo);
+  DrawPoints(verdict.inlier_pixels, scale, kGreen, &photo);
+  cv::Mat picture;
+  cv::vconcat(DrawBanner(BannerLines(verdict, counts), photo.cols), photo, picture);
+  return picture;
+}
+
+}  // namespace plumb::ros_adapter

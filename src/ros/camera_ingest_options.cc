@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ros/camera_ingest_options.h"
+
+#include "plumbline/common/options.h"
+
+namespace plumb::ros_adapter {
+
+std::vector<std::string> CameraIngestOptions::Problems() const {
+  ProblemList problems;
+  const bool has_topic = !image_topic.empty() || !compressed_image_topic.empty();
+  problems.Require(!session_folder.empty(), "session_folder", "given", session_folder);
+  problems.Require(!photos_folder.empty() || has_topic,
+                   "photos_folder",
+                   "given unless image_topic or compressed_image_topic is",
+                   photos_folder);
+  problems.Require(!camera_file.empty() || (photos_folder.empty() && !camera_info_topic.empty()),
+                   "camera_file",
+                   "given unless photos come by an image topic with camera_info_topic alone",
+                   camera_file);
+  problems.Require(!camera_frame_id.empty(), "camera_frame_id", "given", camera_frame_id);
+  problems.Require(max_in_flight >= 1, "max_in_flight", "at least 1", max_in_flight);
+  problems.Require(resend_after_s > 0.0, "resend_after_s", "positive", resend_after_s);
+  problems.Require(untouched_for_s > 0.0, "untouched_for_s", "positive", untouched_for_s);
+  return problems.Take();
+}
+
+}  // namespace plumb::ros_adapter

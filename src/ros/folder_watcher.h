@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace plumb::ros_adapter {
+
+// Whether a name in a watched folder is a photo's: jpg, jpeg, png, tif, tiff or bmp in any case,
+// not hidden, not a temporary file.
+bool IsPhotoName(const std::string& name);
+
+// Finds the photos that appear in a folder, each once it is complete: closed by its writer or
+// renamed into place (inotify) and, if a JPEG, with its end marker; a file that cannot be
+// told complete (a network folder, a cut JPEG) once it was not touched for a while. A photo
+// that is changed later counts as a new one. Not thread-safe.
+class FolderWatcher {
+ public:
+  // Throws std::runtime_error naming the folder if it cannot be watched.
+  FolderWatcher(const std::string& folder, std::chrono::milliseconds untouched_for);
+  ~FolderWatcher();
+
+  FolderWatcher(const FolderWatcher&) = delete;
+  FolderWatcher& operator=(const FolderWatcher&) = delete;
+
+  // Names of the photos complete since the last call, by order of arrival; those found
+  // together, as all in the first call, by name. Waits at most `timeout` for one.
+  std::vector<std::string> Wait(std::chrono::milliseconds timeout);
+
+  // False while the folder is gone, as when a card was pulled; it is watched again once it is back.
+  bool is_watching() const { return is_watching_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  struct Stamp {
+    std::uintmax_t size = 0;
+    std::int64_t changed_ns = 0;
+
+    bool operator==(const Stamp& other) const {
+      return size == other.size && changed_ns == other.changed_ns;
+    }
+  };
+
+  struct Candidate {
+    Stamp stamp;
+    Clock::time_point since;  // It has looked like this since.
+    bool is_closed = false;   // Its writer has closed it, by inotify.
+    bool is_reported = false;
+  };
+
+  static Clock::duration Age(const Stamp& stamp);
+
+  bool AddWatch();
+  void WaitForEvents(std::chrono::milliseconds timeout);
+  void Scan();
+  void Look(const std::string& name, bool is_closed);
+  bool IsComplete(const std::string& name, const Candidate& candidate) const;
+  std::vector<std::string> TakeComplete();
+
+  std::string folder_;
+  std::chrono::milliseconds untouched_for_;
+  int inotify_ = -1;
+  bool is_watching_ = false;
+  bool has_scanned_ = false;
+  Clock::time_point last_scan_;
+  std::map<std::string, Candidate> candidates_;
+  std::vector<std::string> arrivals_;  // Names in the order their files were last closed.
+};
+
+}  // namespace plumb::ros_adapter

@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ros/photo_intake.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "plumbline/common/atomic_file.h"
+#include "plumbline/common/check.h"
+#include "ros/geometry_conversion.h"
+
+namespace plumb::ros_adapter {
+namespace {
+
+using nlohmann::json;
+
+Timestamp Now() {
+  return {std::chrono::duration_cast<std::chrono::nanoseconds>(
+              std::chrono::system_clock::now().time_since_epoch())
+              .count()};
+}
+
+json ToJson(const TakenPhoto& photo) {
+  json line = {{"sequence", photo.sequence},
+               {"name", photo.name},
+               {"source", photo.source},
+               {"source_time_ns", photo.source_time.ns},
+               {"exposure_time_ns", photo.exposure_time.ns},
+               {"received_ns", photo.received.ns}};
+  if (!photo.position) return line;
+  line["lat_deg"] = photo.position->lat_deg;
+  line["lon_deg"] = photo.position->lon_deg;
+  if (photo.position->alt_m) line["alt_m"] = *photo.position->alt_m;
+  return line;
+}
+
+// Throws json::exception if a field is missing or of another type.
+TakenPhoto FromJson(const json& line) {
+  TakenPhoto photo;
+  photo.sequence = line.at("sequence").get<std::uint32_t>();
+  photo.name = line.at("name").get<std::string>();
+  photo.source = line.at("source").get<std::string>();
+  photo.source_time.ns = line.at("source_time_ns").get<std::int64_t>();
+  photo.exposure_time.ns = line.at("exposure_time_ns").get<std::int64_t>();
+  photo.received.ns = line.at("received_ns").get<std::int64_t>();
+  if (!line.contains("lat_deg")) return photo;
+  GeodeticPosition& position = photo.position.emplace();
+  position.lat_deg = line.at("lat_deg").get<double>();
+  position.lon_deg = line.at("lon_deg").get<double>();
+  if (line.contains("alt_m")) position.alt_m = line.at("alt_m").get<double>();
+  return photo;
+}
+
+[[noreturn]] void Fail(const std::string& what, const std::string& path) {
+  throw std::runtime_error(what + ' ' + path + ": " + std::strerror(errno));
+}
+
+// Appends and waits until the disk has it.
+void AppendDurably(const std::string& path, const std::string& text) {
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  if (file < 0) Fail("cannot open", path);
+  const bool is_written =
+      write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
+      fdatasync(file) == 0;
+  if (close(file) != 0 || !is_written) Fail("cannot write", path);
+}
+
+std::string MakeFolder(const std::string& folder) {
+  std::filesystem::create_directories(folder);
+  return folder;
+}
+
+}  // namespace
+
+PhotoIntake::PhotoIntake(const std::string& session_folder)
+    : ledger_path_(session_folder + "/photos.jsonl"),
+      folder_(MakeFolder(session_folder) + "/photos") {
+  ReadLedger();
+}
+
+void PhotoIntake::ReadLedger() {
+  if (!std::filesystem::exists(ledger_path_)) return;
+  const std::vector<std::uint8_t> bytes = ReadFileBytes(ledger_path_);
+  const std::string text(bytes.begin(), bytes.end());
+  std::size_t begin = 0;
+  for (int line_number = 1; begin < text.size(); ++line_number) {
+    const std::size_t end = text.find('\n', begin);
+    if (end == std::string::npos) break;
+    try {
+      const TakenPhoto photo = FromJson(json::parse(text.substr(begin, end - begin)));
+      photos_[photo.sequence] = photo;
+      sequence_of_name_[photo.name] = photo.sequence;
+    } catch (const json::exception& error) {
+      throw std::runtime_error(ledger_path_ + ", line " + std::to_string(line_number) +
+                               ", makes no sense: " + error.what());
+    }
+    begin = end + 1;
+  }
+  if (begin < text.size()) std::filesystem::resize_file(ledger_path_, begin);
+}
+
+std::optional<TakenPhoto> PhotoIntake::TakeFile(const std::string& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) Fail("cannot read", path);
+  const Timestamp changed{status.st_mtim.tv_sec * 1'000'000'000LL + status.st_mtim.tv_nsec};
+  const std::string source = std::filesystem::path(path).filename().string();
+  if (IsKnown(source, changed)) return std::nullopt;
+  return TakeBytes(source, changed, ReadFileBytes(path));
+}
+
+std::optional<TakenPhoto> PhotoIntake::TakeBytes(const std::string& source,
+                                                 Timestamp time,
+                                                 const std::vector<std::uint8_t>& bytes) {
+  TakenPhoto photo;
+  photo.received = Now();
+  photo.source = source;
+  photo.source_time = time;
+  photo.name = folder_.Save(source, bytes);
+  photo.exposure_time = FitsRosTime(time) ? time : photo.received;
+
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (sequence_of_name_.count(photo.name) != 0) return std::nullopt;
+  photo.sequence = photos_.empty() ? 1 : photos_.rbegin()->first + 1;
+  Append(photo);
+  return photo;
+}
+
+bool PhotoIntake::IsKnown(const std::string& source, Timestamp source_time) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (const auto& [sequence, photo] : photos_) {
+    if (photo.source == source && photo.source_time == source_time) return true;
+  }
+  return false;
+}
+
+void PhotoIntake::Append(const TakenPhoto& photo) {
+  // A failed write must not leave half a line.
+  const std::uintmax_t size =
+      std::filesystem::exists(ledger_path_) ? std::filesystem::file_size(ledger_path_) : 0;
+  try {
+    AppendDurably(ledger_path_, ToJson(photo).dump() + '\n');
+  } catch (const std::runtime_error&) {
+    std::error_code ignored;
+    std::filesystem::resize_file(ledger_path_, size, ignored);
+    throw;
+  }
+  photos_[photo.sequence] = photo;
+  sequence_of_name_[photo.name] = photo.sequence;
+}
+
+std::vector<TakenPhoto> PhotoIntake::photos() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::vector<TakenPhoto> photos;
+  for (const auto& [sequence, photo] : photos_) photos.push_back(photo);
+  return photos;
+}
+
+TakenPhoto PhotoIntake::photo(std::uint32_t sequence) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto it = photos_.find(sequence);
+  PLUMB_CHECK(it != photos_.end());
+  return it->second;
+}
+
+std::vector<std::uint8_t> PhotoIntake::ReadBytes(const TakenPhoto& photo) const {
+  return ReadFileBytes(folder_.PathOf(photo.name));
+}
+
+}  // namespace plumb::ros_adapter
