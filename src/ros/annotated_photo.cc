@@ -119,7 +119,13 @@ cv::Mat DrawBanner(const std::vector<Line>& lines, int width_px) {
     const double size = FittingSize(line, unit, width_px - 3 * margin_px, thickness);
     y_px += 36.0 * line.size * unit;
     const cv::Point origin(2 * margin_px, static_cast<int>(std::lround(y_px - 8.0 * unit)));
-    cv::putText(banner, line.text, origin, cv::FONT_HERSHEY_SIMPLEX, size, line.color, thickness,
+    cv::putText(banner,
+                line.text,
+                origin,
+                cv::FONT_HERSHEY_SIMPLEX,
+                size,
+                line.color,
+                thickness,
                 cv::LINE_AA);
   }
   banner.colRange(0, margin_px).setTo(lines.front().color);

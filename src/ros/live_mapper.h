@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <exception>
@@ -54,6 +55,9 @@ class LiveMapper {
 
   const Camera& camera() const { return camera_; }
 
+  // The latest verdict of each photo, without pixels; at first those of the session as found.
+  std::map<PhotoId, PhotoVerdict> verdicts() const;
+
   // Takes a photo; its verdict follows. A photo that has one gets it again. False if the
   // queue is full: offer it again later.
   bool Offer(WirePhoto photo);
@@ -88,14 +92,21 @@ class LiveMapper {
   using MappingItem = std::variant<AnalyzedPhoto, PollRequest, FinishRequest>;
   using StorageItem = std::function<void(SessionStore&)>;
 
+  struct StoredSession {
+    std::vector<MapperPhoto> photos;
+    std::vector<PhotoVerdict> verdicts;
+    MapDelta snapshot;
+  };
+
   class Listener;
 
-  void Restore();
+  StoredSession ReadSession();
   void Analyze(ArrivedPhoto arrived);
   void Map(MappingItem item);
   void MapPhoto(AnalyzedPhoto photo);
   void Store(const StorageItem& item);
   void StorePhoto(const AnalyzedPhoto& photo);
+  void TellStored() const;
   void NoteFailure();
 
   MapperOptions options_;
@@ -105,11 +116,12 @@ class LiveMapper {
   std::set<PhotoId> stored_photos_;
   std::set<std::uint32_t> stored_verdicts_;
 
-  std::mutex mutex_;  // Of what follows.
+  mutable std::mutex mutex_;  // Of what follows.
   std::set<PhotoId> in_work_;
   std::map<PhotoId, PhotoVerdict> verdicts_;
   std::exception_ptr failure_;
-  bool is_stopping_ = false;
+
+  std::atomic<bool> is_stopping_{false};
 
   // Of the mapping thread.
   std::unique_ptr<Listener> listener_;

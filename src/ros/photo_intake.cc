@@ -74,16 +74,11 @@ void AppendDurably(const std::string& path, const std::string& text) {
   if (close(file) != 0 || !is_written) Fail("cannot write", path);
 }
 
-std::string MakeFolder(const std::string& folder) {
-  std::filesystem::create_directories(folder);
-  return folder;
-}
-
 }  // namespace
 
 PhotoIntake::PhotoIntake(const std::string& session_folder)
-    : ledger_path_(session_folder + "/photos.jsonl"),
-      folder_(MakeFolder(session_folder) + "/photos") {
+    : ledger_path_(session_folder + "/photos.jsonl"), folder_(session_folder + "/photos") {
+  folder_.Prepare();
   ReadLedger();
 }
 

@@ -1,0 +1,242 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ros/live_mapper.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include "plumbline/image/photo_analysis.h"
+
+namespace plumb::ros_adapter {
+namespace {
+
+// Deltas, verdicts and seconds of some fifty photos; beyond them mapping waits for the disk.
+constexpr std::size_t kMaxStorageQueue = 256;
+
+// One photo is mapped while the next is ready.
+constexpr std::size_t kMaxMappingQueue = 2;
+
+constexpr std::chrono::milliseconds kStorageRetryEvery{1000};
+
+double SecondsSince(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// Clocks may step between the two; nothing is older than it can be.
+double AgeAtPublishing_s(const WirePhoto& photo) {
+  return std::max(0.0, static_cast<double>(photo.published.ns - photo.received.ns) * 1e-9);
+}
+
+}  // namespace
+
+// Hears the mapper, in the mapping thread.
+class LiveMapper::Listener : public MapperListener {
+ public:
+  explicit Listener(LiveMapper* live) : live_(live) {}
+
+  void OnVerdict(const PhotoVerdict& verdict) override {
+    const bool is_current = verdict.photo == live_->current_photo_;
+    {
+      const std::lock_guard<std::mutex> lock(live_->mutex_);
+      PhotoVerdict kept = verdict;
+      kept.inlier_pixels.clear();
+      kept.outlier_pixels.clear();
+      live_->verdicts_[verdict.photo] = std::move(kept);
+      live_->in_work_.erase(verdict.photo);
+    }
+    live_->output_.on_verdict(verdict, is_current ? live_->current_bytes_ : nullptr);
+    live_->storage_->Push([live = live_, verdict](SessionStore& store) {
+      store.SaveVerdict(verdict);
+      live->stored_verdicts_.insert(verdict.photo.value);
+      live->TellStored();
+    });
+  }
+
+  void OnMapDelta(const MapDelta& delta) override {
+    live_->output_.on_map_delta(delta);
+    live_->storage_->Push([delta](SessionStore& store) { store.Apply(delta); });
+  }
+
+  void OnSeconds(PhotoId photo, const StageSeconds& seconds) override {
+    live_->storage_->Push(
+        [photo, seconds](SessionStore& store) { store.SaveSeconds(photo, seconds); });
+  }
+
+ private:
+  LiveMapper* live_;
+};
+
+LiveMapper::LiveMapper(const MapperOptions& options,
+                       const std::string& session_folder,
+                       const Camera& camera,
+                       int max_queue,
+                       LiveMapperOutput output)
+    : options_(options),
+      camera_(camera),
+      output_(std::move(output)),
+      store_(session_folder, camera),
+      listener_(std::make_unique<Listener>(this)),
+      mapper_(std::make_unique<Mapper>(options, camera, listener_.get())) {
+  StoredSession session = ReadSession();
+  storage_ = std::make_unique<Stage<StorageItem>>(kMaxStorageQueue,
+                                                  [this](const StorageItem& item) { Store(item); });
+  mapping_ = std::make_unique<Stage<MappingItem>>(
+      kMaxMappingQueue, [this](MappingItem item) { Map(std::move(item)); });
+  analysis_ = std::make_unique<Stage<ArrivedPhoto>>(
+      static_cast<std::size_t>(max_queue),
+      [this](ArrivedPhoto photo) { Analyze(std::move(photo)); });
+  TellStored();
+  if (session.photos.empty()) return;
+  output_.on_map_delta(session.snapshot);
+  mapper_->Restore(std::move(session.photos), session.verdicts, session.snapshot);
+}
+
+LiveMapper::~LiveMapper() { is_stopping_ = true; }
+
+LiveMapper::StoredSession LiveMapper::ReadSession() {
+  StoredSession session;
+  session.snapshot = store_.Snapshot();
+  std::set<PhotoId> views;
+  for (const ViewState& view : session.snapshot.views_set) views.insert(view.photo);
+  for (const PhotoVerdict& verdict : store_.LatestVerdicts()) {
+    // A photo that was accepted but whose view did not reach the disk is sent again.
+    const bool is_lost = verdict.status == VerdictStatus::kAccepted && !views.count(verdict.photo);
+    if (is_lost) continue;
+    session.verdicts.push_back(verdict);
+    verdicts_[verdict.photo] = verdict;
+    stored_verdicts_.insert(verdict.photo.value);
+  }
+  for (const StoredPhoto& stored : store_.Photos()) {
+    stored_photos_.insert(stored.id);
+    if (verdicts_.count(stored.id) == 0 || !stored.analysis) continue;
+    MapperPhoto photo;
+    photo.id = stored.id;
+    photo.name = stored.name;
+    photo.exposure_time = stored.exposure_time.value_or(Timestamp{});
+    photo.analysis = *stored.analysis;
+    photo.analysis.features = store_.LoadFeatures(stored.id);
+    session.photos.push_back(std::move(photo));
+  }
+  return session;
+}
+
+bool LiveMapper::Offer(WirePhoto photo) {
+  const PhotoId id = photo.id;
+  std::optional<PhotoVerdict> known;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto it = verdicts_.find(id);
+    if (it != verdicts_.end()) {
+      known = it->second;
+    } else if (!in_work_.insert(id).second) {
+      return true;
+    }
+  }
+  if (known) {
+    output_.on_verdict(*known, nullptr);
+    return true;
+  }
+  auto bytes = std::make_shared<const std::vector<std::uint8_t>>(std::move(photo.bytes));
+  photo.bytes.clear();
+  if (analysis_->TryPush({std::move(photo), std::move(bytes), Clock::now()})) return true;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  in_work_.erase(id);
+  return false;
+}
+
+std::map<PhotoId, PhotoVerdict> LiveMapper::verdicts() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return verdicts_;
+}
+
+void LiveMapper::Poll() {
+  if (mapping_->counters().queue_depth == 0) mapping_->TryPush(PollRequest());
+}
+
+void LiveMapper::Finish() {
+  const auto done = std::make_shared<std::promise<void>>();
+  std::future<void> future = done->get_future();
+  if (mapping_->Push(done)) future.wait();
+}
+
+void LiveMapper::RethrowFailure() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (failure_) std::rethrow_exception(failure_);
+}
+
+void LiveMapper::Analyze(ArrivedPhoto arrived) {
+  if (is_stopping_) return;  // Without a verdict it comes again.
+  PhotoAnalysis analysis =
+      AnalyzePhoto(options_.features, *arrived.bytes, camera_.width_px(), camera_.height_px());
+  mapping_->Push(AnalyzedPhoto{std::move(arrived), std::move(analysis)});
+}
+
+void LiveMapper::Map(MappingItem item) {
+  try {
+    if (auto* photo = std::get_if<AnalyzedPhoto>(&item)) {
+      MapPhoto(std::move(*photo));
+    } else if (auto* request = std::get_if<FinishRequest>(&item)) {
+      mapper_->Finish();
+      storage_->Push([done = *request](SessionStore&) { done->set_value(); });
+    } else {
+      mapper_->Poll();
+    }
+  } catch (...) {
+    NoteFailure();
+    throw;
+  }
+}
+
+void LiveMapper::MapPhoto(AnalyzedPhoto photo) {
+  current_photo_ = photo.arrived.photo.id;
+  current_bytes_ = photo.arrived.bytes;
+  const auto kept = std::make_shared<const AnalyzedPhoto>(photo);
+  storage_->Push([this, kept](SessionStore&) { StorePhoto(*kept); });
+  const WirePhoto& wire = photo.arrived.photo;
+  mapper_->Add({wire.id,
+                wire.name,
+                wire.exposure_time,
+                std::move(photo.analysis),
+                AgeAtPublishing_s(wire) + SecondsSince(photo.arrived.offered)});
+  current_bytes_.reset();
+}
+
+// A full disk must neither lose what is to be written nor stop the flight: tried until it works.
+void LiveMapper::Store(const StorageItem& item) {
+  for (bool has_failed = false;; has_failed = true) {
+    try {
+      item(store_);
+      if (has_failed) output_.on_storage_trouble("");
+      return;
+    } catch (const std::runtime_error& error) {
+      output_.on_storage_trouble(error.what());
+    } catch (...) {
+      NoteFailure();
+      throw;
+    }
+    if (is_stopping_) return;
+    std::this_thread::sleep_for(kStorageRetryEvery);
+  }
+}
+
+void LiveMapper::StorePhoto(const AnalyzedPhoto& photo) {
+  const WirePhoto& wire = photo.arrived.photo;
+  if (stored_photos_.count(wire.id) == 0) {
+    store_.SavePhoto(wire.id, wire.name, *photo.arrived.bytes);
+    stored_photos_.insert(wire.id);
+  }
+  store_.SaveAnalysis(wire.id, wire.exposure_time, photo.analysis);
+}
+
+void LiveMapper::TellStored() const {
+  output_.on_stored({stored_verdicts_.begin(), stored_verdicts_.end()});
+}
+
+void LiveMapper::NoteFailure() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  failure_ = std::current_exception();
+}
+
+}  // namespace plumb::ros_adapter

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <plumbline/GetMap.h>
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "plumbline/common/stage.h"
+#include "plumbline/map/map_replica.h"
+#include "ros/annotated_photo.h"
+#include "ros/live_mapper.h"
+#include "ros/mapper_ros_options.h"
+
+namespace plumb::ros_adapter {
+
+// Tells the outside what the map is: `map_delta` and the service get_map, and for the eye `points`,
+// `cameras`, `camera_path`, `annotated_photo` and tf. Works in its own threads; the mapper hands
+// over and goes on. Thread-safe.
+class MapPublisher {
+ public:
+  MapPublisher(const ros::NodeHandle& handle,
+               const MapperRosOptions& options,
+               const Camera& camera);
+  ~MapPublisher();
+
+  void OnMapDelta(const MapDelta& delta);
+
+  // `bytes` is the photo; the picture of the newest one is drawn.
+  void OnVerdict(const PhotoVerdict& verdict, const PhotoBytes& bytes, const PhotoCounts& counts);
+
+ private:
+  struct Annotation {
+    PhotoVerdict verdict;
+    PhotoBytes bytes;
+    PhotoCounts counts;
+  };
+  struct Wake {};
+
+  void PublishDelta(const MapDelta& delta);
+  void Draw();
+  void DrawAnnotation(const Annotation& annotation);
+  void DrawMap();
+  void BroadcastCamera();
+  bool GetMap(plumbline::GetMap::Request& request, plumbline::GetMap::Response& response);
+
+  MapperRosOptions options_;
+  Camera camera_;
+  ros::Publisher delta_publisher_;
+  ros::Publisher points_publisher_;
+  ros::Publisher cameras_publisher_;
+  ros::Publisher path_publisher_;
+  ros::Publisher annotated_publisher_;
+  tf2_ros::TransformBroadcaster tf_broadcaster_;
+
+  std::mutex mutex_;  // Of what follows.
+  MapReplica map_;
+  bool is_drawn_ = true;  // The drawing shows map_.
+  ros::SteadyTime last_drawn_;
+  std::optional<Annotation> annotation_;
+
+  ros::CallbackQueue service_queue_;
+  ros::ServiceServer get_map_server_;
+  ros::AsyncSpinner service_spinner_;
+  ros::WallTimer draw_timer_;
+  ros::WallTimer tf_timer_;
+
+  Stage<Wake> drawing_;
+  Stage<MapDelta> publishing_;
+};
+
+}  // namespace plumb::ros_adapter

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ros/read_options.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "ros/camera_ingest_options.h"
+#include "ros/mapper_ros_options.h"
+
+namespace plumb::ros_adapter {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::UnorderedElementsAre;
+using XmlRpc::XmlRpcValue;
+
+template <typename Options>
+std::vector<std::string> Read(const XmlRpcValue& tree, Options* options) {
+  std::vector<std::string> problems;
+  OptionReader reader(tree, "", &problems);
+  VisitFields(*options, reader);
+  reader.RefuseUnknown();
+  return problems;
+}
+
+TEST(OptionReader, SetsWhatIsGivenAndLeavesTheRest) {
+  XmlRpcValue tree;
+  tree["max_in_flight"] = 7;
+  tree["resend_after_s"] = 3;  // A whole number is a fine double.
+  tree["camera_file"] = "/c.yaml";
+  CameraIngestOptions options;
+  EXPECT_THAT(Read(tree, &options), IsEmpty());
+  EXPECT_EQ(options.max_in_flight, 7);
+  EXPECT_EQ(options.resend_after_s, 3.0);
+  EXPECT_EQ(options.camera_file, "/c.yaml");
+  EXPECT_EQ(options.untouched_for_s, CameraIngestOptions().untouched_for_s);
+}
+
+TEST(OptionReader, RefusesAFractionForAnInteger) {
+  XmlRpcValue tree;
+  tree["max_in_flight"] = 30.7;
+  CameraIngestOptions options;
+  EXPECT_THAT(Read(tree, &options),
+              ElementsAre(AllOf(HasSubstr("max_in_flight"), HasSubstr("30.7"))));
+}
+
+TEST(OptionReader, RefusesOtherTypes) {
+  CameraIngestOptions options;
+  XmlRpcValue tree;
+  tree["max_in_flight"] = true;
+  EXPECT_EQ(Read(tree, &options).size(), 1U);
+  tree["max_in_flight"] = "4";
+  EXPECT_EQ(Read(tree, &options).size(), 1U);
+  tree = XmlRpcValue();
+  tree["camera_file"] = 12;
+  EXPECT_EQ(Read(tree, &options).size(), 1U);
+}
+
+TEST(OptionReader, RefusesUnknownNamesAtEachLevelWithTheirPath) {
+  XmlRpcValue tree;
+  tree["sesion_folder"] = "/s";
+  tree["mapper"]["localizer"]["min_inliers"] = 3;
+  MapperRosOptions options;
+  EXPECT_THAT(Read(tree, &options),
+              ElementsAre(HasSubstr("mapper/localizer/min_inliers is unknown"),
+                          HasSubstr("sesion_folder is unknown")));
+}
+
+TEST(OptionReader, ReadsNestedGroups) {
+  XmlRpcValue tree;
+  tree["mapper"]["features"]["max_features"] = 1234;
+  tree["mapper"]["deterministic"] = true;
+  MapperRosOptions options;
+  EXPECT_THAT(Read(tree, &options), IsEmpty());
+  EXPECT_EQ(options.mapper.features.max_features, 1234);
+  EXPECT_TRUE(options.mapper.deterministic);
+}
+
+TEST(OptionReader, RefusesAValueWhereAGroupBelongs) {
+  XmlRpcValue tree;
+  tree["mapper"] = 3;
+  MapperRosOptions options;
+  EXPECT_THAT(Read(tree, &options), ElementsAre(HasSubstr("mapper must be a group")));
+}
+
+TEST(CameraIngestOptions, DefaultsNeedOnlyFolderSessionAndCamera) {
+  CameraIngestOptions options;
+  EXPECT_FALSE(options.Problems().empty());
+  options.photos_folder = "/photos";
+  options.session_folder = "/session";
+  EXPECT_THAT(options.Problems(), ElementsAre(HasSubstr("camera_file")));
+  options.camera_file = "/camera.yaml";
+  EXPECT_THAT(options.Problems(), IsEmpty());
+  options.max_in_flight = 0;
+  EXPECT_THAT(options.Problems(), ElementsAre(AllOf(HasSubstr("max_in_flight"), HasSubstr("0"))));
+}
+
+TEST(CameraIngestOptions, ATopicMayBringItsOwnCameraInfo) {
+  CameraIngestOptions options;
+  options.session_folder = "/session";
+  options.image_topic = "image_raw";
+  EXPECT_THAT(options.Problems(), IsEmpty());
+}
+
+TEST(MapperRosOptions, DefaultsNeedOnlyASession) {
+  MapperRosOptions options;
+  EXPECT_THAT(options.Problems(), ElementsAre(HasSubstr("session_folder")));
+  options.session_folder = "/session";
+  EXPECT_THAT(options.Problems(), IsEmpty());
+  EXPECT_FALSE(options.mapper.deterministic);
+}
+
+TEST(MapperRosOptions, NamesProblemsOfNestedOptionsByTheirPath) {
+  MapperRosOptions options;
+  options.session_folder = "/session";
+  options.mapper.max_retries_per_photo = -1;
+  options.mapper.features.min_contrast = -1.0;
+  EXPECT_THAT(options.Problems(),
+              UnorderedElementsAre(HasSubstr("mapper.features.min_contrast"),
+                                   HasSubstr("mapper.max_retries_per_photo")));
+}
+
+}  // namespace
+}  // namespace plumb::ros_adapter
