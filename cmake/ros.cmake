@@ -45,7 +45,8 @@ if(TARGET plumbline_tool)
 endif()
 
 install(TARGETS ${programs} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
-install(PROGRAMS scripts/fly_photos.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+install(PROGRAMS scripts/fly_photos.py scripts/record_flight.sh
+        DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY config launch rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 
 # Failures of these fail ctest; they are built by the target `tests`.

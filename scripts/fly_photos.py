@@ -1,0 +1,47 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: 2026 The Plumbline authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Leaves the photos of a folder in another one, one by one and piece by piece, as a camera would."""
+
+import argparse
+import pathlib
+import time
+
+PHOTO_SUFFIXES = {".jpg", ".jpeg", ".png", ".tif", ".tiff", ".bmp"}
+
+
+def list_photos(folder):
+    """The photos of a folder by name."""
+    return sorted(path for path in pathlib.Path(folder).iterdir()
+                  if path.suffix.lower() in PHOTO_SUFFIXES and not path.name.startswith("."))
+
+
+def leave_photo(photo, folder, num_pieces=8, duration_s=0.1):
+    """Writes one photo under its final name, in pieces over some time."""
+    data = photo.read_bytes()
+    size = max(1, -(-len(data) // num_pieces))
+    with open(pathlib.Path(folder) / photo.name, "wb") as file:
+        for begin in range(0, len(data), size):
+            file.write(data[begin:begin + size])
+            file.flush()
+            time.sleep(duration_s / num_pieces)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("photos", help="folder of the photos to take")
+    parser.add_argument("folder", help="watched folder to leave them in")
+    parser.add_argument("--every", type=float, default=1.0, help="seconds from photo to photo")
+    parser.add_argument("--first", type=int, default=0, help="skip this many photos")
+    parser.add_argument("--count", type=int, default=None, help="leave at most this many photos")
+    arguments = parser.parse_args()
+    pathlib.Path(arguments.folder).mkdir(parents=True, exist_ok=True)
+    photos = list_photos(arguments.photos)[arguments.first:]
+    for photo in photos[:arguments.count]:
+        begin = time.monotonic()
+        leave_photo(photo, arguments.folder)
+        time.sleep(max(0.0, arguments.every - (time.monotonic() - begin)))
+
+
+if __name__ == "__main__":
+    main()

@@ -217,8 +217,12 @@ void CameraIngest::OnStoredPhotos(const plumbline::StoredPhotos& msg) {
   SendDue();
 }
 
+bool CameraIngest::IsHeard() const {
+  return photo_publisher_.getNumSubscribers() >= static_cast<std::uint32_t>(options_.min_listeners);
+}
+
 void CameraIngest::SendDue() {
-  if (photo_publisher_.getNumSubscribers() == 0) return;
+  if (!IsHeard()) return;
   while (!is_stopping_) {
     std::optional<std::uint32_t> sequence;
     {
@@ -258,8 +262,8 @@ void CameraIngest::Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
     status.summary(DiagnosticStatus::ERROR, "the folder " + options_.photos_folder + " is gone");
   } else if (!camera_) {
     status.summary(DiagnosticStatus::WARN, "no camera_info was heard yet");
-  } else if (photo_publisher_.getNumSubscribers() == 0) {
-    status.summary(DiagnosticStatus::WARN, "no mapper listens");
+  } else if (!IsHeard()) {
+    status.summary(DiagnosticStatus::WARN, "nobody listens to the photos yet");
   } else {
     status.summary(DiagnosticStatus::OK, "ok");
   }

@@ -57,6 +57,8 @@ class CameraIngest {
   void OnVerdict(const plumbline::PhotoVerdict& msg);
   void OnStoredPhotos(const plumbline::StoredPhotos& msg);
 
+  bool IsHeard() const;
+
   // Publishes whatever the window says is due.
   void SendDue();
   void Send(std::uint32_t sequence);

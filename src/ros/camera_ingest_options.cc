@@ -19,6 +19,7 @@ std::vector<std::string> CameraIngestOptions::Problems() const {
                    "given unless photos come by an image topic with camera_info_topic alone",
                    camera_file);
   problems.Require(!camera_frame_id.empty(), "camera_frame_id", "given", camera_frame_id);
+  problems.Require(min_listeners >= 1, "min_listeners", "at least 1", min_listeners);
   problems.Require(max_in_flight >= 1, "max_in_flight", "at least 1", max_in_flight);
   problems.Require(resend_after_s > 0.0, "resend_after_s", "positive", resend_after_s);
   problems.Require(untouched_for_s > 0.0, "untouched_for_s", "positive", untouched_for_s);

@@ -29,6 +29,9 @@ struct CameraIngestOptions {
   // Frame of the photos: x right, y down, z forward.
   std::string camera_frame_id = "camera_optical";
 
+  // Photos are sent once so many nodes listen: the mapper, and a recorder if there is one.
+  int min_listeners = 1;
+
   // Photos sent and not yet answered. More keep both of the mapper's stages busy; too many
   // fill its queue.
   int max_in_flight = 4;
@@ -55,6 +58,7 @@ void VisitFields(CameraIngestOptions& options, Visitor&& visit) {
   visit("compressed_image_topic", options.compressed_image_topic);
   visit("camera_info_topic", options.camera_info_topic);
   visit("camera_frame_id", options.camera_frame_id);
+  visit("min_listeners", options.min_listeners);
   visit("max_in_flight", options.max_in_flight);
   visit("resend_after_s", options.resend_after_s);
   visit("untouched_for_s", options.untouched_for_s);

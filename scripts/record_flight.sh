@@ -1,0 +1,17 @@
+#!/bin/bash
+# SPDX-FileCopyrightText: 2026 The Plumbline authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Records the wire of a flight to SESSION/flight.bag; an earlier one there becomes flight_1.bag,
+# flight_2.bag, … The first argument is the session folder; roslaunch adds its own.
+set -euo pipefail
+session=$1
+shift
+mkdir -p "$session"
+if [[ -e $session/flight.bag ]]; then
+  number=1
+  while [[ -e $session/flight_$number.bag ]]; do number=$((number + 1)); done
+  mv "$session/flight.bag" "$session/flight_$number.bag"
+fi
+exec rosrun rosbag record -O "$session/flight.bag" --buffsize=0 \
+  /plumbline/photo /plumbline/photo_verdict /plumbline/stored_photos /plumbline/map_delta \
+  /diagnostics /tf /rosout "$@"
