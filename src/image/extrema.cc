@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstring>
 #include <optional>
+#include <tuple>
 
 #include "image/parallel_for.h"
 #include "image/simd.h"
@@ -19,6 +20,9 @@ namespace {
 constexpr int kRowsPerPart = 32;
 constexpr int kBorder = 5;  // Pixels at the edge of an octave where nothing is sought.
 constexpr int kMaxMoves = 5;
+// Half a pixel would do but for extrema between two pixels, which each of the two may
+// see a little beyond the half and send to the other for ever.
+constexpr float kMaxOffset = 0.6F;
 constexpr int kLanes = 16;  // Floats compared at a time.
 constexpr int kNumDifferences = kLevelsPerOctave - 1;
 // Grid values are searched with a lower bound, as the refined extremum is higher than they are.
@@ -142,14 +146,9 @@ bool IsExtremum(const DifferenceRows& rows, int level, int x, int y) {
   return true;
 }
 
-struct Quadratic {
-  Eigen::Vector3f gradient;  // By x, y, level.
-  Eigen::Matrix3f hessian;
-  float value;
-};
+using Cube = float[3][3][3];  // Differences around a grid point, by level, y, x.
 
-Quadratic FitQuadratic(const Octave& octave, int level, int x, int y) {
-  float d[3][3][3];  // By level, y, x.
+void LoadCube(const Octave& octave, int level, int x, int y, Cube d) {
   for (int l = 0; l < 3; ++l) {
     for (int v = 0; v < 3; ++v) {
       for (int u = 0; u < 3; ++u) {
@@ -157,6 +156,15 @@ Quadratic FitQuadratic(const Octave& octave, int level, int x, int y) {
       }
     }
   }
+}
+
+struct Quadratic {
+  Eigen::Vector3f gradient;  // By x, y, level.
+  Eigen::Matrix3f hessian;
+  float value;
+};
+
+Quadratic FitQuadratic(const Cube d) {
   Quadratic fit;
   const float c = d[1][1][1];
   fit.value = c;
@@ -171,6 +179,28 @@ Quadratic FitQuadratic(const Octave& octave, int level, int x, int y) {
   return fit;
 }
 
+// The extremum in x and y of the quadratic at the level `level_offset` from the cube's middle.
+// Better than the one in x, y and level: how sharp a blob is changes much from level to
+// level, which a quadratic cannot follow; synthetic blobs came out up to 0.08 px off. Nothing
+// beyond the neighbours.
+std::optional<Eigen::Vector2f> LocateAtLevel(const Cube d, float level_offset) {
+  const float below = 0.5F * level_offset * (level_offset - 1.0F);
+  const float middle = 1.0F - level_offset * level_offset;
+  const float above = 0.5F * level_offset * (level_offset + 1.0F);
+  Cube slice;
+  for (int v = 0; v < 3; ++v) {
+    for (int u = 0; u < 3; ++u) {
+      slice[1][v][u] = below * d[0][v][u] + middle * d[1][v][u] + above * d[2][v][u];
+      slice[0][v][u] = slice[2][v][u] = slice[1][v][u];
+    }
+  }
+  const Quadratic fit = FitQuadratic(slice);
+  const Eigen::Matrix2f hessian = fit.hessian.topLeftCorner<2, 2>();
+  const Eigen::Vector2f offset = -(hessian.inverse() * fit.gradient.head<2>());
+  if (!(offset.cwiseAbs().maxCoeff() < 1.0F)) return std::nullopt;
+  return offset;
+}
+
 // Lowe's test on the ratio of the principal curvatures (equation 4).
 bool IsEdge(const Eigen::Matrix3f& hessian, float max_ratio) {
   const float trace = hessian(0, 0) + hessian(1, 1);
@@ -182,21 +212,25 @@ bool IsEdge(const Eigen::Matrix3f& hessian, float max_ratio) {
 std::optional<Extremum> Refine(
     const FeatureOptions& options, const Octave& octave, int level, int x, int y) {
   for (int move = 0; move < kMaxMoves; ++move) {
-    const Quadratic fit = FitQuadratic(octave, level, x, y);
+    Cube cube;
+    LoadCube(octave, level, x, y, cube);
+    const Quadratic fit = FitQuadratic(cube);
     const float determinant = fit.hessian.determinant();
     if (std::abs(determinant) < 1e-12F) return std::nullopt;
     const Eigen::Vector3f offset = -(fit.hessian.inverse() * fit.gradient);
     // Beyond the neighbours the quadratic says nothing.
     if (!(offset.cwiseAbs().maxCoeff() < 2.0F)) return std::nullopt;
-    if (offset.cwiseAbs().maxCoeff() <= 0.5F) {
+    if (offset.cwiseAbs().maxCoeff() <= kMaxOffset) {
       const float contrast = fit.value + 0.5F * fit.gradient.dot(offset);
       if (std::abs(contrast) < 255.0F * static_cast<float>(options.min_contrast)) {
         return std::nullopt;
       }
       if (IsEdge(fit.hessian, static_cast<float>(options.max_edge_ratio))) return std::nullopt;
+      const std::optional<Eigen::Vector2f> located = LocateAtLevel(cube, offset.z());
+      if (!located) return std::nullopt;
       Extremum extremum;
-      extremum.x = static_cast<float>(x) + offset.x();
-      extremum.y = static_cast<float>(y) + offset.y();
+      extremum.x = static_cast<float>(x) + located->x();
+      extremum.y = static_cast<float>(y) + located->y();
       extremum.level = static_cast<float>(level) + offset.z();
       return extremum;
     }
@@ -243,6 +277,20 @@ std::vector<Extremum> FindInRows(const FeatureOptions& options,
   return extrema;
 }
 
+// Two grid points may lead to one extremum; keeps the first of those that are the same to a
+// quarter of a pixel, in the order of rows.
+void RemoveDuplicates(std::vector<Extremum>* extrema) {
+  const auto key = [](const Extremum& extremum) {
+    return std::make_tuple(
+        std::lround(4 * extremum.y), std::lround(4 * extremum.x), std::lround(4 * extremum.level));
+  };
+  std::stable_sort(extrema->begin(), extrema->end(), [&](const Extremum& a, const Extremum& b) {
+    return key(a) < key(b);
+  });
+  const auto is_same = [&](const Extremum& a, const Extremum& b) { return key(a) == key(b); };
+  extrema->erase(std::unique(extrema->begin(), extrema->end(), is_same), extrema->end());
+}
+
 }  // namespace
 
 std::vector<Extremum> FindExtrema(const FeatureOptions& options,
@@ -264,6 +312,7 @@ std::vector<Extremum> FindExtrema(const FeatureOptions& options,
       extrema.push_back(extremum);
     }
   }
+  RemoveDuplicates(&extrema);
   return extrema;
 }
 

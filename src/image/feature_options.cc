@@ -25,7 +25,7 @@ std::vector<std::string> FeatureOptions::Problems() const {
                    "max_octave_megapixels",
                    "greater than 0",
                    max_octave_megapixels);
-  problems.Require(max_blur_px > 0.0, "max_blur_px", "greater than 0", max_blur_px);
+  problems.Require(max_blur > 0.0, "max_blur", "greater than 0", max_blur);
   problems.Require(num_threads >= 0, "num_threads", "at least 0", num_threads);
   return problems.Take();
 }

@@ -81,7 +81,7 @@ bool FindFeatures(const FeatureOptions& options,
                   PhotoAnalysis* analysis) {
   extractor->SearchCoarse();
   analysis->blur_px = EstimateBlur(extractor->first_octave());
-  const double max_blur_px = options.max_blur_px;
+  const double max_blur_px = options.max_blur * extractor->first_octave().full_px_per_px;
   if (analysis->blur_px > max_blur_px) {
     return Refuse(PhotoStatus::kTooBlurred,
                   "blurred by about " + std::to_string(std::lround(analysis->blur_px)) +
