@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "plumbline/camera/camera.h"
 #include "plumbline/common/atomic_file.h"
@@ -23,7 +24,12 @@ struct CheckArguments {
 };
 
 Json CheckPhoto(const Camera& camera, const std::string& folder, const std::string& name) {
-  const std::vector<std::uint8_t> bytes = ReadFileBytes(folder + '/' + name);
+  std::vector<std::uint8_t> bytes;
+  try {
+    bytes = ReadFileBytes(folder + '/' + name);
+  } catch (const std::runtime_error& error) {
+    return {{"name", name}, {"usable", false}, {"detail", error.what()}};
+  }
   const double cpu_before_s = CurrentProcessUsage().cpu_s;
   const Stopwatch stopwatch;
   const PhotoAnalysis analysis =
@@ -43,10 +49,10 @@ Json CheckPhoto(const Camera& camera, const std::string& folder, const std::stri
 
 void AddCheckCommand(CLI::App* app, ExitCode* exit_code) {
   CLI::App* command = app->add_subcommand(
-      "check",
-      "Analyse the photos of a folder without a map, one after the other. Prints one line of JSON "
-      "a photo: whether it is usable and why not, size and blur [px], number of features, wall "
-      "and CPU seconds of its decoding and features.");
+      "check", "Say of each photo of a folder whether it is usable, without a map");
+  command->footer(
+      "Prints one line of JSON a photo: whether it is usable and why not, size and blur [px], "
+      "number of features, wall and CPU seconds of its decoding and features.");
   const auto arguments = std::make_shared<CheckArguments>();
   command->add_option("--photos", arguments->photos, "Folder of photos")->required();
   command->add_option("--camera", arguments->camera, "Lens: ROS camera_info YAML, lengths in px")

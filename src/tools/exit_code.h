@@ -4,7 +4,7 @@
 
 namespace plumb::tools {
 
-// What the program says to the shell; `plumbline --help` lists them.
+// What the program says to the shell.
 enum ExitCode {
   kDone = 0,            // Also with refused photos: the report names them.
   kFailed = 1,          // A file, an option value or the disk; the message names it and the cure.
@@ -12,5 +12,11 @@ enum ExitCode {
   kNothingLocated = 3,  // All photos were taken, none could be located.
   kInterrupted = 130    // Ended by Ctrl-C or SIGTERM; what there was is kept.
 };
+
+// The same, for --help.
+constexpr char kExitCodes[] =
+    "Exit codes: 0 done (the report names refused photos); 1 a file, an option value or the disk, "
+    "named with its cure; 2 wrong usage; 3 no photo could be located; 130 ended by Ctrl-C, what "
+    "there was is kept.";
 
 }  // namespace plumb::tools

@@ -9,11 +9,7 @@ int main(int argc, char** argv) {
   CLI::App app("Photos of a facade become a measured map.", "plumbline");
   app.set_version_flag("--version", "plumbline " PLUMBLINE_VERSION);
   app.require_subcommand(1);
-  app.footer(
-      "Exit codes: 0 done (the report names refused photos); 1 a file, an option value or the "
-      "disk, "
-      "named with its cure; 2 wrong usage; 3 no photo could be located; 130 ended by Ctrl-C, what "
-      "there was is kept.");
+  app.footer(kExitCodes);
   ExitCode exit_code = kDone;
   AddReconstructCommand(&app, &exit_code);
   AddCheckCommand(&app, &exit_code);
@@ -22,7 +18,9 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kDone : kWrongUsage;
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help and --version.
+    std::cerr << "plumbline: " << error.what() << "; see plumbline --help\n";
+    return kWrongUsage;
   } catch (const std::exception& error) {
     std::cerr << "plumbline: " << error.what() << '\n';
     return kFailed;

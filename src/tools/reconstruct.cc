@@ -24,18 +24,21 @@
 namespace plumb::tools {
 namespace {
 
-// The unfinished photos of the session, then the files of the folder.
-std::vector<PhotoTask> MakeTasks(const ReconstructArguments& arguments,
-                                 const std::vector<StoredPhoto>& unfinished,
-                                 SessionStore* store) {
+std::vector<PhotoTask> FolderTasks(const ReconstructArguments& arguments) {
+  std::vector<std::string> names = ListPhotos(arguments.photos);
+  ApplyOrder(arguments.order, &names);
+  std::vector<PhotoTask> tasks;
+  for (const std::string& name : names) {
+    tasks.push_back({arguments.photos + '/' + name, name, std::nullopt});
+  }
+  return tasks;
+}
+
+std::vector<PhotoTask> UnfinishedTasks(const std::vector<StoredPhoto>& unfinished,
+                                       SessionStore* store) {
   std::vector<PhotoTask> tasks;
   for (const StoredPhoto& photo : unfinished) {
     tasks.push_back({store->photos().PathOf(photo.name), photo.source_name, photo.id});
-  }
-  std::vector<std::string> names = ListPhotos(arguments.photos);
-  ApplyOrder(arguments.order, &names);
-  for (const std::string& name : names) {
-    tasks.push_back({arguments.photos + '/' + name, name, std::nullopt});
   }
   return tasks;
 }
@@ -44,8 +47,7 @@ std::vector<PhotoTask> MakeTasks(const ReconstructArguments& arguments,
 class Feeder {
  public:
   Feeder(const MapperOptions& options, const Camera& camera, SessionStore* store, Console* console)
-      : store_(store),
-        console_(console),
+      : console_(console),
         known_(store),
         reader_(options.features, camera.width_px(), camera.height_px(), &store->photos(), &known_),
         next_id_(store->NextPhotoId()),
@@ -53,7 +55,6 @@ class Feeder {
         mapper_(options, camera, &recorder_) {}
 
   void Restore(StoredSession session) {
-    num_restored_ = session.photos.size();
     mapper_.Restore(std::move(session.photos), session.verdicts, session.snapshot);
   }
 
@@ -65,7 +66,11 @@ class Feeder {
       ReadPhoto photo = next.get();
       if (i + 1 < tasks.size()) next = reader_.Start(tasks[i + 1]);
       console_->ShowProgress(i, tasks.size(), tasks[i].source_name);
-      if (!photo.is_known) Add(std::move(photo));
+      if (photo.is_known) {
+        ++num_known_;
+      } else {
+        Add(std::move(photo));
+      }
     }
     console_->ShowProgress(tasks.size(), tasks.size(), "last bundle");
     mapper_.Finish();
@@ -74,8 +79,7 @@ class Feeder {
 
   void Close() { recorder_.Close(); }
 
-  std::size_t num_added() const { return num_added_; }
-  std::size_t num_restored() const { return num_restored_; }
+  std::size_t num_known() const { return num_known_; }
   const Map& map() const { return mapper_.map(); }
 
  private:
@@ -84,7 +88,6 @@ class Feeder {
     if (id == next_id_) ++next_id_.value;
     const Timestamp exposure_time = photo.analysis.metadata.exposure_time.value_or(Timestamp{});
     recorder_.SavePhoto(id, photo, exposure_time);
-    ++num_added_;
     mapper_.Add({id,
                  photo.name,
                  exposure_time,
@@ -94,24 +97,39 @@ class Feeder {
 
   void Show(const PhotoVerdict& verdict) { console_->PrintLine(Describe(verdict)); }
 
-  SessionStore* store_;
   Console* console_;
   KnownPhotos known_;
   PhotoReader reader_;
   PhotoId next_id_;
-  std::size_t num_added_ = 0;
-  std::size_t num_restored_ = 0;
+  std::size_t num_known_ = 0;  // Files that the session had answered already.
   SessionRecorder recorder_;
   Mapper mapper_;
 };
 
-std::string Summary(const RunReport& report, const nlohmann::ordered_json& json) {
+std::string Summary(const RunReport& report) {
+  const nlohmann::ordered_json json = ToJson(report);
   std::ostringstream text;
   text << std::fixed << std::setprecision(1) << json["session"]["accepted"] << " of "
        << json["session"]["photos"] << " photos located, " << report.num_landmarks << " landmarks; "
        << report.wall_s << " s, " << report.usage.cpu_s << " s of CPU, "
        << static_cast<double>(report.usage.peak_memory_bytes) / 1048576.0 << " MiB";
   return text.str();
+}
+
+// export/ and report.json, with the figures of the whole run.
+void WriteResults(const SessionStore& store,
+                  const Stopwatch& wall,
+                  RunReport* report,
+                  Console* console) {
+  for (const std::string& path : ExportSession(store, store.folder() + "/export")) {
+    console->PrintLine("wrote " + path);
+  }
+  report->wall_s = wall.Seconds();
+  report->usage = CurrentProcessUsage();
+  const std::string path = store.folder() + "/report.json";
+  WriteRunReport(*report, path);
+  console->PrintLine("wrote " + path);
+  console->PrintLine(Summary(*report));
 }
 
 }  // namespace
@@ -140,11 +158,15 @@ ExitCode Reconstruct(const ReconstructArguments& arguments,
                      const std::atomic<bool>& stop,
                      Console* console) {
   const Stopwatch wall;
+  // All that can be wrong with the arguments, before a session is made.
   const Camera camera = ReadCameraYaml(arguments.camera);
   const MapperOptions options = ReadMapperOptions(arguments);
+  const std::vector<PhotoTask> folder_tasks = FolderTasks(arguments);
+
   SessionStore store(arguments.session, camera);
   StoredSession session = ReadStoredSession(store);
-  const std::vector<PhotoTask> tasks = MakeTasks(arguments, session.unfinished, &store);
+  std::vector<PhotoTask> tasks = UnfinishedTasks(session.unfinished, &store);
+  tasks.insert(tasks.end(), folder_tasks.begin(), folder_tasks.end());
   Feeder feeder(options, camera, &store, console);
   if (!session.photos.empty()) {
     console->PrintLine(arguments.session + ": going on after " +
@@ -153,25 +175,17 @@ ExitCode Reconstruct(const ReconstructArguments& arguments,
   }
   const bool is_complete = feeder.Feed(tasks, stop);
   feeder.Close();
-  const std::size_t num_known = tasks.size() - feeder.num_added();
-  if (is_complete && num_known > 0) {
-    console->PrintLine(std::to_string(num_known) + " files were in the session already");
+  if (feeder.num_known() > 0) {
+    console->PrintLine(std::to_string(feeder.num_known()) + " files were in the session already");
   }
-  for (const std::string& path : ExportSession(store, arguments.session + "/export")) {
-    console->PrintLine("wrote " + path);
-  }
+
   RunReport report;
   report.verdicts = store.AllVerdicts();
   report.num_landmarks = feeder.map().num_landmarks();
   report.num_observations = feeder.map().num_observations();
-  report.wall_s = wall.Seconds();
-  report.usage = CurrentProcessUsage();
   report.interrupted = !is_complete;
   report.options = OptionsToJson(options);
-  const std::string report_path = arguments.session + "/report.json";
-  WriteRunReport(report, report_path);
-  console->PrintLine("wrote " + report_path);
-  console->PrintLine(Summary(report, ToJson(report)));
+  WriteResults(store, wall, &report, console);
   if (!is_complete) return kInterrupted;
   return feeder.map().views().empty() ? kNothingLocated : kDone;
 }

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <iostream>
 #include <memory>
+#include <string>
 
 #include "tools/commands.h"
 #include "tools/reconstruct.h"
@@ -25,11 +26,13 @@ void RequestStop(int signal) {
 
 void AddReconstructCommand(CLI::App* app, ExitCode* exit_code) {
   CLI::App* command = app->add_subcommand(
-      "reconstruct",
-      "Locate the photos of a folder and build the map, as in flight. Prints a line for each "
-      "verdict: name, verdict, reason and hint or inliers, matches and median error [px], seconds "
-      "from the first byte to the verdict. Writes SESSION/{photos,session.db,report.json,export}. "
-      "A session that was cut off goes on where it was; photos it has answered are skipped.");
+      "reconstruct", "Locate the photos of a folder and build the map, as in flight");
+  command->footer(
+      "Prints a line for each verdict: name, verdict, reason and hint, or inliers, matches and "
+      "median reprojection error [px]; seconds from the first byte to the verdict.\n"
+      "Writes SESSION/{photos,session.db,report.json,export}. A session that was cut off goes on "
+      "where it was: photos it has answered are skipped by name and content.\n" +
+      std::string(kExitCodes));
   const auto arguments = std::make_shared<ReconstructArguments>();
   command->add_option("--photos", arguments->photos, "Folder of photos")->required();
   command->add_option("--camera", arguments->camera, "Lens: ROS camera_info YAML, lengths in px")

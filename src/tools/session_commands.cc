@@ -42,11 +42,12 @@ struct SessionArguments {
 }  // namespace
 
 void AddEvaluateCommand(CLI::App* app, ExitCode* exit_code) {
-  CLI::App* command = app->add_subcommand(
-      "evaluate",
-      "Compare the camera poses of a session with their truth, after the similarity that fits the "
-      "camera centres best. Prints JSON: registered, mean, median and largest centre error [mm] "
-      "and rotation error [deg], and those of each photo.");
+  CLI::App* command =
+      app->add_subcommand("evaluate", "Compare the camera poses of a session with their truth");
+  command->footer(
+      "Prints JSON: photos registered, mean, median and largest error of the camera centres [mm] "
+      "and rotations [deg] after the similarity that fits the centres best, and those of each "
+      "photo.");
   const auto arguments = std::make_shared<SessionArguments>();
   command->add_option("--session", arguments->session, "Folder of the session")->required();
   command
@@ -65,10 +66,11 @@ void AddEvaluateCommand(CLI::App* app, ExitCode* exit_code) {
 }
 
 void AddExportCommand(CLI::App* app, ExitCode* exit_code) {
-  CLI::App* command = app->add_subcommand(
-      "export",
-      "Write the map of a session as colmap/{cameras,images,points3D}.txt (COLMAP's text model) "
-      "and points.ply, in the units of the map.");
+  CLI::App* command =
+      app->add_subcommand("export", "Write the map of a session for other programs");
+  command->footer(
+      "Writes colmap/{cameras,images,points3D}.txt (COLMAP's text model) and points.ply, in the "
+      "map's frame and unit of length.");
   const auto arguments = std::make_shared<SessionArguments>();
   command->add_option("--session", arguments->session, "Folder of the session")->required();
   command->add_option("--to", arguments->path, "Folder to write to (default: SESSION/export)");

@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/reconstruct.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "plumbline/common/atomic_file.h"
+#include "plumbline/export/evaluation.h"
+#include "plumbline/map/session_store.h"
+
+namespace plumb::tools {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr char kCameraYaml[] =
+    "image_width: 640\nimage_height: 480\ncamera_name: test\n"
+    "camera_matrix: {rows: 3, cols: 3, data: [600, 0, 319.5, 0, 600, 239.5, 0, 0, 1]}\n"
+    "distortion_model: plumb_bob\n"
+    "distortion_coefficients: {rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}\n";
+
+class ReconstructTest : public testing::Test {
+ protected:
+  ReconstructTest() {
+    std::string pattern = testing::TempDir() + "reconstruct_XXXXXX";
+    root_ = ::mkdtemp(pattern.data());
+    fs::create_directory(root_ / "photos");
+    std::ofstream(root_ / "camera.yaml") << kCameraYaml;
+    arguments_.photos = (root_ / "photos").string();
+    arguments_.camera = (root_ / "camera.yaml").string();
+    arguments_.session = (root_ / "session").string();
+  }
+  ~ReconstructTest() override { fs::remove_all(root_); }
+
+  void WritePhoto(const std::string& name, const std::string& bytes) {
+    std::ofstream(root_ / "photos" / name) << bytes;
+  }
+
+  ExitCode Run(const std::atomic<bool>& stop = false) {
+    std::ostringstream out;
+    ExitCode code;
+    {
+      Console console(&out, /*is_terminal=*/false);
+      code = Reconstruct(arguments_, stop, &console);
+    }
+    output_ = out.str();
+    return code;
+  }
+
+  std::string ErrorOf() {
+    try {
+      Run();
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return {};
+  }
+
+  nlohmann::json Report() const {
+    return nlohmann::json::parse(std::ifstream(arguments_.session + "/report.json"));
+  }
+
+  // Takes the first photos of a shared scene; false where it is absent.
+  bool UseSharedScene(const std::string& scene, int num_photos) {
+    const char* data = std::getenv("PLUMBLINE_DATA");
+    const fs::path root = data ? data : PLUMBLINE_SOURCE_DIR "/../shared/data";
+    if (!fs::exists(root / scene)) return false;
+    arguments_.camera = (root / scene / "camera.yaml").string();
+    for (int i = 0; i < num_photos; ++i) {
+      const std::string name = "000" + std::to_string(i) + ".jpg";
+      fs::create_symlink(root / scene / "photos" / name, root_ / "photos" / name);
+    }
+    return true;
+  }
+
+  fs::path root_;
+  ReconstructArguments arguments_;
+  std::string output_;
+};
+
+TEST_F(ReconstructTest, GivesEveryBadFileAVerdictAndGoesOn) {
+  WritePhoto("empty.jpg", "");
+  WritePhoto("notes.txt", "not a photo");
+  WritePhoto("truncated.jpg", std::string("\xff\xd8\xff\xe0\x00\x10JFIF", 10));
+  fs::create_symlink(root_ / "gone.jpg", root_ / "photos" / "dangling.jpg");
+  EXPECT_EQ(Run(), kNothingLocated);
+  const nlohmann::json report = Report();
+  EXPECT_EQ(report["session"]["photos"], 4);
+  EXPECT_EQ(report["session"]["refused"], 4);
+  std::set<std::string> names;
+  for (const auto& photo : report["photos"]) {
+    EXPECT_EQ(photo["reason"], "undecodable") << photo;
+    EXPECT_FALSE(photo["hint"].get<std::string>().empty()) << photo;
+    names.insert(photo["name"]);
+    EXPECT_THAT(output_, HasSubstr(photo["name"].get<std::string>() + ": refused, undecodable"));
+  }
+  EXPECT_THAT(names,
+              testing::ElementsAre("dangling.jpg", "empty.jpg", "notes.txt", "truncated.jpg"));
+  const std::vector<std::uint8_t> kept = ReadFileBytes(arguments_.session + "/photos/notes.txt");
+  EXPECT_EQ(std::string(kept.begin(), kept.end()), "not a photo");
+  EXPECT_TRUE(fs::exists(arguments_.session + "/export/colmap/images.txt"));
+  EXPECT_TRUE(fs::exists(arguments_.session + "/export/points.ply"));
+}
+
+TEST_F(ReconstructTest, ASecondRunTakesOnlyWhatIsNew) {
+  WritePhoto("a.txt", "first");
+  WritePhoto("b.txt", "second");
+  Run();
+  WritePhoto("b.txt", "another under the same name");
+  WritePhoto("c.txt", "third");
+  Run();
+  EXPECT_THAT(output_, HasSubstr("1 files were in the session already"));
+  const SessionStore store = SessionStore::OpenExisting(arguments_.session);
+  std::vector<std::string> names;
+  for (const StoredPhoto& photo : store.Photos()) names.push_back(photo.name);
+  EXPECT_THAT(names, testing::ElementsAre("a.txt", "b.txt", "b_2.txt", "c.txt"));
+  EXPECT_EQ(store.LatestVerdicts().size(), 4u);
+}
+
+TEST_F(ReconstructTest, FinishesFirstWhatWasCutOff) {
+  WritePhoto("a.txt", "first");
+  {
+    SessionStore store(arguments_.session, ReadCameraYaml(arguments_.camera));
+    store.SavePhoto({0}, "cut_off.txt", {'x'});  // No analysis, no verdict.
+  }
+  Run();
+  const SessionStore store = SessionStore::OpenExisting(arguments_.session);
+  const std::vector<PhotoVerdict> verdicts = store.AllVerdicts();
+  ASSERT_EQ(verdicts.size(), 2u);
+  EXPECT_EQ(verdicts[0].name, "cut_off.txt");
+  EXPECT_EQ(verdicts[0].photo, PhotoId{0});
+  EXPECT_EQ(verdicts[1].name, "a.txt");
+  EXPECT_EQ(verdicts[1].photo, PhotoId{1});
+  EXPECT_EQ(store.Photos().size(), 2u);
+}
+
+TEST_F(ReconstructTest, StopsBetweenPhotosAndKeepsWhatThereIs) {
+  WritePhoto("a.txt", "first");
+  EXPECT_EQ(Run(/*stop=*/true), kInterrupted);
+  EXPECT_EQ(Report()["run"]["interrupted"], true);
+  EXPECT_EQ(Run(), kNothingLocated);
+  EXPECT_EQ(Report()["run"]["interrupted"], false);
+  EXPECT_EQ(Report()["session"]["photos"], 1);
+}
+
+TEST_F(ReconstructTest, WhatIsWrongWithTheArgumentsIsNamedBeforeASessionIsMade) {
+  EXPECT_THAT(ErrorOf(), HasSubstr(arguments_.photos + ": holds no file"));
+  WritePhoto("a.txt", "first");
+  arguments_.order = "sideways";
+  EXPECT_THAT(ErrorOf(), HasSubstr("sideways"));
+  arguments_.order = "name";
+  arguments_.settings = {"localizer.max_error_px=-1"};
+  EXPECT_THAT(ErrorOf(), HasSubstr("localizer.max_error_px"));
+  arguments_.settings.clear();
+  arguments_.options = (root_ / "options.yaml").string();
+  EXPECT_THAT(ErrorOf(), HasSubstr(arguments_.options));
+  std::ofstream(arguments_.options) << "bundle: {huber_width_px: wide}";
+  EXPECT_THAT(ErrorOf(), HasSubstr(arguments_.options + ": bundle.huber_width_px"));
+  arguments_.options.clear();
+  arguments_.camera = (root_ / "absent.yaml").string();
+  EXPECT_THAT(ErrorOf(), HasSubstr(arguments_.camera));
+  EXPECT_FALSE(fs::exists(arguments_.session));
+}
+
+TEST_F(ReconstructTest, TheSamePhotosInTheSameOrderGiveTheSameMap) {
+  if (!UseSharedScene("Herz-Jesus-P8", 5)) GTEST_SKIP() << "set PLUMBLINE_DATA to the shared data";
+  EXPECT_EQ(Run(), kDone);
+  const std::string first = arguments_.session;
+  arguments_.session += "2";
+  EXPECT_EQ(Run(), kDone);
+  for (const char* file : {"cameras.txt", "images.txt", "points3D.txt"}) {
+    const std::string name = std::string("/export/colmap/") + file;
+    EXPECT_EQ(ReadFileBytes(first + name), ReadFileBytes(arguments_.session + name)) << file;
+  }
+}
+
+TEST_F(ReconstructTest, AKilledRunGoesOnAndLocatesEveryPhotoOnce) {
+  if (!UseSharedScene("Herz-Jesus-P8", 6)) GTEST_SKIP() << "set PLUMBLINE_DATA to the shared data";
+  int channel[2];
+  ASSERT_EQ(::pipe(channel), 0);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::dup2(channel[1], STDOUT_FILENO);
+    const std::atomic<bool> stop{false};
+    std::ostream out(std::cout.rdbuf());
+    Console console(&out, false);
+    Reconstruct(arguments_, stop, &console);
+    ::_exit(0);
+  }
+  ::close(channel[1]);
+  std::string heard;
+  char character = 0;
+  while (heard.find("0003.jpg: ") == std::string::npos && ::read(channel[0], &character, 1) == 1) {
+    heard += character;
+  }
+  ::kill(child, SIGKILL);
+  ::waitpid(child, nullptr, 0);
+  ::close(channel[0]);
+  ASSERT_FALSE(fs::exists(arguments_.session + "/report.json")) << "it was not killed in time";
+
+  EXPECT_EQ(Run(), kDone);
+  const SessionStore store = SessionStore::OpenExisting(arguments_.session);
+  std::multiset<std::string> names;
+  for (const StoredPhoto& photo : store.Photos()) names.insert(photo.source_name);
+  EXPECT_THAT(
+      names,
+      testing::ElementsAre("0000.jpg", "0001.jpg", "0002.jpg", "0003.jpg", "0004.jpg", "0005.jpg"));
+  for (const PhotoVerdict& verdict : store.LatestVerdicts()) {
+    EXPECT_EQ(verdict.status, VerdictStatus::kAccepted) << verdict.name;
+  }
+  EXPECT_EQ(store.Snapshot().views_set.size(), 6u);
+}
+
+}  // namespace
+}  // namespace plumb::tools
