@@ -13,6 +13,12 @@ namespace {
 constexpr int kTileRows = 4;
 constexpr int kLanes = 8;
 
+// term - 2 dot << kKeyIndexBits; the key fits 32 bits, its parts need not, so they wrap around.
+std::int32_t Key(std::int32_t term, std::int32_t dot) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(term) -
+                                   (static_cast<std::uint32_t>(dot) << (kKeyIndexBits + 1)));
+}
+
 void RunPortable(const TileJob& job) {
   const auto* rows = static_cast<const std::int16_t*>(job.rows);
   const auto* columns = static_cast<const std::int16_t*>(job.columns);
@@ -22,13 +28,12 @@ void RunPortable(const TileJob& job) {
       for (int k = 0; k < kDescriptorSize; ++k) {
         dot += rows[row * kDescriptorSize + k] * columns[lane * kDescriptorSize + k];
       }
-      const std::int32_t shifted = dot * (2 << kKeyIndexBits);
-      const std::int32_t row_key = job.column_terms[lane] - shifted;
+      const std::int32_t row_key = Key(job.column_terms[lane], dot);
       std::int32_t& best = job.row_best[row * kLanes + lane];
       std::int32_t& second = job.row_second[row * kLanes + lane];
       second = std::min(second, std::max(best, row_key));
       best = std::min(best, row_key);
-      job.column_best[lane] = std::min(job.column_best[lane], job.row_terms[row] - shifted);
+      job.column_best[lane] = std::min(job.column_best[lane], Key(job.row_terms[row], dot));
     }
   }
 }
