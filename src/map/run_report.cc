@@ -73,6 +73,9 @@ Json ToJson(const RunReport& report) {
   for (const auto& [photo, verdicts] : verdicts_of_photo) {
     ++count[verdicts.back()->status];
     photos.push_back(PhotoJson(verdicts));
+    const auto turn = report.turns.find(photo);
+    if (turn == report.turns.end()) continue;
+    photos.back()["turn"] = {{"wall_s", turn->second.wall_s}, {"cpu_s", turn->second.cpu_s}};
   }
   return {{"run",
            {{"wall_s", report.wall_s},

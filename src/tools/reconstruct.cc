@@ -4,6 +4,7 @@
 
 #include <future>
 #include <iomanip>
+#include <map>
 #include <memory>
 #include <sstream>
 #include <utility>
@@ -61,6 +62,8 @@ class Feeder {
   // False if it was stopped.
   bool Feed(const std::vector<PhotoTask>& tasks, const std::atomic<bool>& stop) {
     std::future<ReadPhoto> next = reader_.Start(tasks[0]);
+    Stopwatch turn;
+    double cpu_s = CurrentProcessUsage().cpu_s;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
       if (stop) return false;
       ReadPhoto photo = next.get();
@@ -68,9 +71,11 @@ class Feeder {
       console_->ShowProgress(i, tasks.size(), tasks[i].source_name);
       if (photo.is_known) {
         ++num_known_;
-      } else {
-        Add(std::move(photo));
+        continue;
       }
+      const PhotoId id = Add(std::move(photo));
+      const double cpu_before_s = std::exchange(cpu_s, CurrentProcessUsage().cpu_s);
+      turns_[id] = {turn.Restart(), cpu_s - cpu_before_s};
     }
     console_->ShowProgress(tasks.size(), tasks.size(), "last bundle");
     mapper_.Finish();
@@ -80,10 +85,11 @@ class Feeder {
   void Close() { recorder_.Close(); }
 
   std::size_t num_known() const { return num_known_; }
+  const std::map<PhotoId, PhotoTurn>& turns() const { return turns_; }
   const Map& map() const { return mapper_.map(); }
 
  private:
-  void Add(ReadPhoto photo) {
+  PhotoId Add(ReadPhoto photo) {
     const PhotoId id = photo.task.stored_id.value_or(next_id_);
     if (id == next_id_) ++next_id_.value;
     const Timestamp exposure_time = photo.analysis.metadata.exposure_time.value_or(Timestamp{});
@@ -93,6 +99,7 @@ class Feeder {
                  exposure_time,
                  std::move(photo.analysis),
                  photo.since_first_byte.Seconds()});
+    return id;
   }
 
   void Show(const PhotoVerdict& verdict) { console_->PrintLine(Describe(verdict)); }
@@ -101,6 +108,7 @@ class Feeder {
   KnownPhotos known_;
   PhotoReader reader_;
   PhotoId next_id_;
+  std::map<PhotoId, PhotoTurn> turns_;
   std::size_t num_known_ = 0;  // Files that the session had answered already.
   SessionRecorder recorder_;
   Mapper mapper_;
@@ -181,6 +189,7 @@ ExitCode Reconstruct(const ReconstructArguments& arguments,
 
   RunReport report;
   report.verdicts = store.AllVerdicts();
+  report.turns = feeder.turns();
   report.num_landmarks = feeder.map().num_landmarks();
   report.num_observations = feeder.map().num_observations();
   report.interrupted = !is_complete;

@@ -35,6 +35,7 @@ TEST_F(RunReportTest, SaysOfEachPhotoItsLatestVerdictAndEveryAttempt) {
   report.verdicts[2].num_inliers = 345;
   report.verdicts[2].seconds.verdict_s = 0.25;
   report.wall_s = 12.5;
+  report.turns[{1}] = {0.5, 0.75};
   report.usage = {20.25, 123456789};
   const std::string path = (root_ / "report.json").string();
   WriteRunReport(report, path);
@@ -58,6 +59,9 @@ TEST_F(RunReportTest, SaysOfEachPhotoItsLatestVerdictAndEveryAttempt) {
   EXPECT_EQ(photo["attempts"][0]["reason"], "no_overlap");
   EXPECT_EQ(photo["attempts"][0]["hint"], "fly closer");
   EXPECT_EQ(photo["attempts"][0]["matches"], 12);
+  EXPECT_FALSE(photo.contains("turn"));  // Of an earlier run.
+  EXPECT_EQ(json["photos"][1]["turn"]["wall_s"], 0.5);
+  EXPECT_EQ(json["photos"][1]["turn"]["cpu_s"], 0.75);
 }
 
 TEST_F(RunReportTest, AFileNameThatIsNoUtf8DoesNotCostTheReport) {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <type_traits>
@@ -20,9 +21,17 @@ struct ProcessUsage {
 };
 ProcessUsage CurrentProcessUsage();
 
+// What one photo cost: from the moment it was taken up until the next one was, the
+// retries and background work of that time included.
+struct PhotoTurn {
+  double wall_s = 0.0;
+  double cpu_s = 0.0;  // Of the whole process.
+};
+
 // One run over a session: report.json.
 struct RunReport {
   std::vector<PhotoVerdict> verdicts;  // All of the session, in the order they were given.
+  std::map<PhotoId, PhotoTurn> turns;  // Of the photos of this run.
   std::size_t num_landmarks = 0;
   std::size_t num_observations = 0;
   double wall_s = 0.0;  // Of this run, from start to end.
@@ -35,7 +44,8 @@ struct RunReport {
 //   { "run": { "wall_s", "cpu_s", "peak_memory_bytes", "interrupted" },
 //     "session": { "photos", "accepted", "waiting", "refused", "landmarks", "observations" },
 //     "photos": [ { "id", "name", "verdict", "reason", "hint", "matches", "inliers",
-//                   "median_error_px", "seconds": { "decode_s", … }, "attempts": [ … ] } ],
+//                   "median_error_px", "seconds": { "decode_s", … }, "attempts": [ … ],
+//                   "turn": { "wall_s", "cpu_s" } } ],
 //     "options": { … } }
 // where a photo shows its latest verdict, and under "attempts" every one, with the same keys.
 nlohmann::ordered_json ToJson(const RunReport& report);
