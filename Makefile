@@ -10,7 +10,7 @@ DATA := $(or $(PLUMBLINE_DATA),$(abspath ../shared/data))
 PHOTOS ?= $(DATA)/fountain-P11/photos
 CAMERA ?= $(dir $(patsubst %/,%,$(PHOTOS)))camera.yaml
 
-.PHONY: help deps build test test-sanitize bench demo format lint clean
+.PHONY: help deps build test test-sanitize bench demo docs format lint clean
 
 help: ## Show the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-14s %s\n", $$1, $$2}' Makefile
@@ -40,7 +40,10 @@ bench: build ## Measure accuracy and seconds a photo on the shared scenes, into 
 	/usr/bin/python3 scripts/bench.py
 
 demo: build ## Fly PHOTOS= with CAMERA= through the live ROS graph and RViz (default: fountain-P11)
-	scripts/demo.sh "$(PHOTOS)" "$(CAMERA)"
+	source devel/setup.bash && scripts/demo.py --photos "$(PHOTOS)" --camera "$(CAMERA)" --out $(BUILD)/demo
+
+docs: build ## Write the generated pages of docs/ anew
+	scripts/parameters_doc.py $(BUILD)/list_parameters
 
 format: ## Format all C++ sources with clang-format-14
 	@scripts/install_dependencies.sh --lint

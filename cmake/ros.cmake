@@ -49,12 +49,21 @@ install(PROGRAMS scripts/fly_photos.py scripts/record_flight.sh
         DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY config launch rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 
+# What docs/parameters.md is made of.
+add_executable(list_parameters ${PROJECT_SOURCE_DIR}/src/ros/tools/list_parameters.cc)
+set_target_properties(list_parameters PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
+target_link_libraries(list_parameters PRIVATE plumb_ros plumb_warnings)
+add_test(NAME parameters_page_is_current
+         COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/scripts/parameters_doc.py --check
+                 $<TARGET_FILE:list_parameters>)
+
 # Failures of these fail ctest; they are built by the target `tests`.
 if(CATKIN_ENABLE_TESTING)
   find_package(rostest REQUIRED)
   file(GLOB ros_test_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/ros/*_test.cc)
   if(ros_test_sources)
     add_executable(ros_test ${ros_test_sources})
+    set_target_properties(ros_test PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
     target_include_directories(ros_test PRIVATE ${PROJECT_SOURCE_DIR})
     target_compile_definitions(ros_test PRIVATE PLUMBLINE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
     target_link_libraries(ros_test PRIVATE plumb_ros GTest::gmock GTest::gtest_main plumb_warnings)

@@ -179,7 +179,11 @@ void LiveMapper::Map(MappingItem item) {
       MapPhoto(std::move(*photo));
     } else if (auto* request = std::get_if<FinishRequest>(&item)) {
       mapper_->Finish();
-      storage_->Push([done = *request](SessionStore&) { done->set_value(); });
+      storage_->Push([this, report = MakeReport(), done = *request](SessionStore& store) mutable {
+        report.verdicts = store.AllVerdicts();
+        WriteRunReport(report, store.folder() + "/report.json");
+        done->set_value();
+      });
     } else {
       mapper_->Poll();
     }
@@ -187,6 +191,16 @@ void LiveMapper::Map(MappingItem item) {
     NoteFailure();
     throw;
   }
+}
+
+RunReport LiveMapper::MakeReport() const {
+  RunReport report;
+  report.num_landmarks = mapper_->map().num_landmarks();
+  report.num_observations = mapper_->map().num_observations();
+  report.wall_s = SecondsSince(started_);
+  report.usage = CurrentProcessUsage();
+  report.options = OptionsToJson(options_);
+  return report;
 }
 
 void LiveMapper::MapPhoto(AnalyzedPhoto photo) {

@@ -19,6 +19,7 @@
 
 #include "plumbline/camera/camera.h"
 #include "plumbline/common/stage.h"
+#include "plumbline/map/run_report.h"
 #include "plumbline/map/session_store.h"
 #include "plumbline/sfm/mapper.h"
 #include "ros/photo_conversion.h"
@@ -65,7 +66,8 @@ class LiveMapper {
   // Lets the mapper look at what its background has found, if it has nothing else to do.
   void Poll();
 
-  // Mapper::Finish after the photos offered so far; returns when the result is on disk.
+  // Mapper::Finish after the photos offered so far, then SESSION/report.json; returns when all is
+  // on disk.
   void Finish();
 
   // Throws what stopped a thread, if anything did: the mapper is of no use then.
@@ -104,11 +106,13 @@ class LiveMapper {
   void Analyze(ArrivedPhoto arrived);
   void Map(MappingItem item);
   void MapPhoto(AnalyzedPhoto photo);
+  RunReport MakeReport() const;
   void Store(const StorageItem& item);
   void StorePhoto(const AnalyzedPhoto& photo);
   void TellStored() const;
   void NoteFailure();
 
+  const Clock::time_point started_ = Clock::now();
   MapperOptions options_;
   Camera camera_;
   LiveMapperOutput output_;

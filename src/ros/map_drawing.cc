@@ -4,8 +4,10 @@
 
 #include <sensor_msgs/point_cloud2_iterator.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -87,17 +89,38 @@ visualization_msgs::Marker LineList(const std_msgs::Header& header,
   return marker;
 }
 
-}  // namespace
-
-sensor_msgs::PointCloud2 DrawPoints(const MapReplica& map,
-                                    int min_views,
-                                    const std_msgs::Header& header) {
+std::vector<const LandmarkState*> DrawnLandmarks(const MapReplica& map, int min_views) {
   std::vector<const LandmarkState*> landmarks;
   for (const auto& [id, landmark] : map.landmarks()) {
     if (static_cast<int>(landmark.pixel_of_feature.size()) >= min_views) {
       landmarks.push_back(&landmark.state);
     }
   }
+  return landmarks;
+}
+
+// The box of the points between the 3rd and the 97th percentile of each coordinate.
+Eigen::AlignedBox3d InnerBox(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::AlignedBox3d box;
+  std::vector<double> values(points.size());
+  const std::size_t rank = points.size() * 3 / 100;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::transform(points.begin(), points.end(), values.begin(), [&](const Eigen::Vector3d& point) {
+      return point[axis];
+    });
+    std::sort(values.begin(), values.end());
+    box.min()[axis] = values[rank];
+    box.max()[axis] = values[values.size() - 1 - rank];
+  }
+  return box;
+}
+
+}  // namespace
+
+sensor_msgs::PointCloud2 DrawPoints(const MapReplica& map,
+                                    int min_views,
+                                    const std_msgs::Header& header) {
+  const std::vector<const LandmarkState*> landmarks = DrawnLandmarks(map, min_views);
   sensor_msgs::PointCloud2 cloud;
   cloud.header = header;
   cloud.height = 1;
@@ -121,8 +144,8 @@ visualization_msgs::MarkerArray DrawFrusta(const MapReplica& map,
   const std::vector<Rigid3> map_from_cams = MapFromCams(map);
   const double depth = kFrustumDepth * CameraSpacing(map_from_cams);
   const auto rays = CornerRays(camera);
-  auto others = LineList(header, "cameras", 0.04 * depth, Color(0.25F, 0.75F, 1.0F, 1.0F));
-  auto newest = LineList(header, "newest_camera", 0.12 * depth, Color(1.0F, 0.85F, 0.1F, 1.0F));
+  auto others = LineList(header, "cameras", 0.04 * depth, Color(0.0F, 0.3F, 0.8F, 1.0F));
+  auto newest = LineList(header, "newest_camera", 0.12 * depth, Color(1.0F, 0.4F, 0.0F, 1.0F));
   for (std::size_t i = 0; i < map_from_cams.size(); ++i) {
     const bool is_newest = i + 1 == map_from_cams.size();
     AppendFrustum(map_from_cams[i], rays, depth, is_newest ? &newest.points : &others.points);
@@ -148,6 +171,39 @@ nav_msgs::Path DrawPath(const MapReplica& map, const std_msgs::Header& header) {
     path.poses.push_back(pose);
   }
   return path;
+}
+
+std::optional<Eigen::Vector3d> FindFocus(const MapReplica& map,
+                                         int min_views,
+                                         const Overview& overview) {
+  std::vector<Eigen::Vector3d> points;
+  for (const LandmarkState* landmark : DrawnLandmarks(map, min_views)) {
+    points.push_back(landmark->position_in_map);
+  }
+  if (points.empty()) return std::nullopt;
+  Eigen::AlignedBox3d box = InnerBox(points);
+  points.erase(std::remove_if(points.begin(),
+                              points.end(),
+                              [&](const Eigen::Vector3d& point) { return !box.contains(point); }),
+               points.end());
+  for (const Rigid3& map_from_cam : MapFromCams(map)) {
+    points.push_back(map_from_cam.translation);
+    box.extend(map_from_cam.translation);
+  }
+  const Eigen::Vector3d middle = box.center();
+  const Eigen::Vector3d towards_eye(std::cos(overview.pitch_rad) * std::cos(overview.yaw_rad),
+                                    std::cos(overview.pitch_rad) * std::sin(overview.yaw_rad),
+                                    std::sin(overview.pitch_rad));
+  // A point `along` nearer to the eye and `aside` of the line of sight is in view from a distance
+  // of at least along + aside / tan(half angle).
+  double needed = 0.0;
+  for (const Eigen::Vector3d& point : points) {
+    const Eigen::Vector3d offset = point - middle;
+    const double along = offset.dot(towards_eye);
+    const double aside = (offset - along * towards_eye).norm();
+    needed = std::max(needed, along + aside / std::tan(overview.half_angle_rad));
+  }
+  return middle + (needed - overview.distance) * towards_eye;
 }
 
 }  // namespace plumb::ros_adapter

@@ -8,6 +8,7 @@
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/image_encodings.h>
 
+#include <cmath>
 #include <utility>
 
 #include "ros/geometry_conversion.h"
@@ -21,6 +22,8 @@ namespace {
 constexpr std::size_t kMaxDeltaQueue = 256;
 
 constexpr double kTfPeriod_s = 0.5;
+
+double Radians(double degrees) { return degrees * M_PI / 180.0; }
 
 std_msgs::Header HeaderNow(const std::string& frame_id) {
   std_msgs::Header header;
@@ -48,7 +51,7 @@ MapPublisher::MapPublisher(const ros::NodeHandle& handle,
   draw_timer_ = own.createWallTimer(ros::WallDuration(0.5 * options.display_period_s),
                                     [this](const auto&) { drawing_.TryPush({}); });
   tf_timer_ = own.createWallTimer(ros::WallDuration(kTfPeriod_s),
-                                  [this](const auto&) { BroadcastCamera(); });
+                                  [this](const auto&) { BroadcastFrames(); });
   own.setCallbackQueue(&service_queue_);
   get_map_server_ = own.advertiseService("get_map", &MapPublisher::GetMap, this);
   service_spinner_.start();
@@ -75,7 +78,7 @@ void MapPublisher::PublishDelta(const MapDelta& delta) {
     is_drawn_ = false;
   }
   delta_publisher_.publish(ToMapDeltaMsg(delta, options_.map_frame_id, ros::Time::now()));
-  if (!delta.views_set.empty()) BroadcastCamera();
+  if (!delta.views_set.empty()) BroadcastFrames();
 }
 
 void MapPublisher::Draw() {
@@ -110,16 +113,29 @@ void MapPublisher::DrawMap() {
   points_publisher_.publish(DrawPoints(map_, options_.min_drawn_views, header));
   cameras_publisher_.publish(DrawFrusta(map_, camera_, header));
   path_publisher_.publish(DrawPath(map_, header));
+  const Overview overview{Radians(options_.overview_yaw_deg),
+                          Radians(options_.overview_pitch_deg),
+                          options_.overview_distance,
+                          Radians(options_.overview_half_angle_deg)};
+  focus_in_map_ = FindFocus(map_, options_.min_drawn_views, overview);
 }
 
 // Said again and again, so that a listener that came late hears it.
-void MapPublisher::BroadcastCamera() {
+void MapPublisher::BroadcastFrames() {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (map_.views().empty()) return;  // On tf, silence means unknown.
+  const Rigid3& cam_from_map = map_.views().rbegin()->second.cam_from_map;
+  Broadcast(cam_from_map.Inverse(), options_.camera_frame_id);
+  if (focus_in_map_) {
+    Broadcast({Eigen::Quaterniond::Identity(), *focus_in_map_}, options_.overview_frame_id);
+  }
+}
+
+void MapPublisher::Broadcast(const Rigid3& map_from_child, const std::string& child_frame_id) {
   geometry_msgs::TransformStamped msg;
   msg.header = HeaderNow(options_.map_frame_id);
-  msg.child_frame_id = options_.camera_frame_id;
-  msg.transform = ToTransformMsg(map_.views().rbegin()->second.cam_from_map.Inverse());
+  msg.child_frame_id = child_frame_id;
+  msg.transform = ToTransformMsg(map_from_child);
   tf_broadcaster_.sendTransform(msg);
 }
 

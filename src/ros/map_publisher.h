@@ -47,7 +47,8 @@ class MapPublisher {
   void Draw();
   void DrawAnnotation(const Annotation& annotation);
   void DrawMap();
-  void BroadcastCamera();
+  void BroadcastFrames();
+  void Broadcast(const Rigid3& map_from_child, const std::string& child_frame_id);
   bool GetMap(plumbline::GetMap::Request& request, plumbline::GetMap::Response& response);
 
   MapperRosOptions options_;
@@ -63,6 +64,7 @@ class MapPublisher {
   MapReplica map_;
   bool is_drawn_ = true;  // The drawing shows map_.
   ros::SteadyTime last_drawn_;
+  std::optional<Eigen::Vector3d> focus_in_map_;
   std::optional<Annotation> annotation_;
 
   ros::CallbackQueue service_queue_;

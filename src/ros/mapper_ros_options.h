@@ -19,6 +19,14 @@ struct MapperRosOptions {
   // Frame of the camera on tf: where the last photo that was located was taken from.
   std::string camera_frame_id = "camera_optical";
 
+  // Frame on tf, with the map's axes, that moves as the map grows: a viewer that looks at it from
+  // the direction and distance below has the whole map in view. rviz/flight.rviz does.
+  std::string overview_frame_id = "map_overview";
+  double overview_yaw_deg = 255.0;   // From the side of the first camera, a little to the left.
+  double overview_pitch_deg = 20.0;  // A little from above.
+  double overview_distance = 20.0;   // [map units: the distance of the first two cameras].
+  double overview_half_angle_deg = 17.0;  // RViz sees 45 degrees, in a window that may be slim.
+
   // Photos that wait for their features. What comes when it is full is dropped and sent again by
   // camera_ingest; a photo of 16 megapixels takes some 6 MB here.
   int max_queue = 16;
@@ -49,6 +57,11 @@ void VisitFields(MapperRosOptions& options, Visitor&& visit) {
   visit("session_folder", options.session_folder);
   visit("map_frame_id", options.map_frame_id);
   visit("camera_frame_id", options.camera_frame_id);
+  visit("overview_frame_id", options.overview_frame_id);
+  visit("overview_yaw_deg", options.overview_yaw_deg);
+  visit("overview_pitch_deg", options.overview_pitch_deg);
+  visit("overview_distance", options.overview_distance);
+  visit("overview_half_angle_deg", options.overview_half_angle_deg);
   visit("max_queue", options.max_queue);
   visit("display_period_s", options.display_period_s);
   visit("annotated_width_px", options.annotated_width_px);

@@ -73,13 +73,14 @@ class OptionReader {
 template <typename Options>
 Options ReadOptions(const ros::NodeHandle& handle) {
   Options options;
-  XmlRpc::XmlRpcValue tree;
   const std::string& name = handle.getNamespace();
-  if (!ros::param::get(name, tree)) return options;
   std::vector<std::string> problems;
-  OptionReader reader(tree, "", &problems);
-  VisitFields(options, reader);
-  reader.RefuseUnknown();
+  XmlRpc::XmlRpcValue tree;
+  if (ros::param::get(name, tree)) {
+    OptionReader reader(tree, "", &problems);
+    VisitFields(options, reader);
+    reader.RefuseUnknown();
+  }
   if (problems.empty()) problems = options.Problems();
   ThrowIfProblems("parameters of " + name, problems);
   return options;

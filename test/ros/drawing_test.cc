@@ -82,6 +82,38 @@ TEST(DrawFrusta, DeletesWhatAnEmptyMapDoesNotHave) {
   }
 }
 
+// Whether a point lies in the cone that `overview` sees when it looks at `focus`.
+bool IsInView(const Eigen::Vector3d& point,
+              const Eigen::Vector3d& focus,
+              const Overview& overview) {
+  const Eigen::Vector3d towards_eye(std::cos(overview.pitch_rad) * std::cos(overview.yaw_rad),
+                                    std::cos(overview.pitch_rad) * std::sin(overview.yaw_rad),
+                                    std::sin(overview.pitch_rad));
+  const Eigen::Vector3d ray = point - (focus + overview.distance * towards_eye);
+  return -ray.normalized().dot(towards_eye) >= std::cos(overview.half_angle_rad) - 1e-12;
+}
+
+TEST(FindFocus, HasAllCamerasAndPointsInViewWhateverTheDirectionAndDistance) {
+  const MapReplica map = MakeMap();
+  for (const double yaw_rad : {0.0, 1.5, 4.4}) {
+    for (const double distance : {0.1, 50.0}) {
+      const Overview overview{yaw_rad, 0.4, distance, 0.3};
+      const auto focus = FindFocus(map, /*min_views=*/2, overview);
+      ASSERT_TRUE(focus);
+      for (const auto& [id, landmark] : map.landmarks()) {
+        EXPECT_TRUE(IsInView(landmark.state.position_in_map, *focus, overview)) << yaw_rad;
+      }
+      for (const auto& [photo, view] : map.views()) {
+        EXPECT_TRUE(IsInView(view.cam_from_map.TargetOriginInSource(), *focus, overview));
+      }
+    }
+  }
+}
+
+TEST(FindFocus, IsNowhereWithoutPoints) {
+  EXPECT_EQ(FindFocus(MapReplica(), /*min_views=*/2, {0.0, 0.0, 1.0, 0.3}), std::nullopt);
+}
+
 TEST(DrawPath, RunsThroughTheCentresInOrder) {
   const nav_msgs::Path path = DrawPath(MakeMap(), MakeHeader());
   ASSERT_EQ(path.poses.size(), 3U);

@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Prints the parameters of each node with their defaults as JSON, for scripts/parameters_doc.py.
+#include <iostream>
+
+#include "plumbline/map/run_report.h"
+#include "ros/camera_ingest_options.h"
+#include "ros/mapper_ros_options.h"
+
+int main() {
+  nlohmann::ordered_json nodes;
+  nodes["camera_ingest"] = plumb::OptionsToJson(plumb::ros_adapter::CameraIngestOptions());
+  nodes["mapper"] = plumb::OptionsToJson(plumb::ros_adapter::MapperRosOptions());
+  std::cout << nodes.dump(1) << '\n';
+  return 0;
+}

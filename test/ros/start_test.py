@@ -1,0 +1,74 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: 2026 The Plumbline authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A node with a wrong parameter or camera ends at once and names what is wrong."""
+
+import unittest
+
+import rospy
+import rostest
+
+import wire
+
+
+class StartTest(wire.FolderTest):
+    def end_of(self, name, **parameters):
+        """What a node says that must end by itself with a failure."""
+        process = wire.start_node(name, "/start", **parameters)
+        said, _ = process.communicate(timeout=wire.DEADLINE_S)
+        self.assertNotEqual(process.returncode, 0, said)
+        self.assertIn("FATAL", said)
+        return said
+
+    def ingest(self, **parameters):
+        defaults = {"photos_folder": self.card, "session_folder": self.session,
+                    "camera_file": self.camera}
+        return self.end_of("camera_ingest", **{**defaults, **parameters})
+
+    def tearDown(self):
+        for parameter in ("/start/camera_ingest", "/start/mapper"):
+            if rospy.has_param(parameter):
+                rospy.delete_param(parameter)
+
+    def test_a_fraction_for_a_whole_number_is_refused(self):
+        said = self.ingest(max_in_flight=30.7)
+        self.assertIn("max_in_flight", said)
+        self.assertIn("30.7", said)
+
+    def test_a_value_out_of_bounds_is_refused(self):
+        said = self.ingest(resend_after_s=-1.0)
+        self.assertIn("resend_after_s must be positive, but is -1", said)
+
+    def test_an_unknown_name_is_refused(self):
+        self.assertIn("foto_folder is unknown", self.ingest(foto_folder="/x"))
+
+    def test_nested_parameters_of_the_mapper_are_checked(self):
+        rospy.set_param("/start/mapper/mapper/localizer", {"min_num_inliers": "many"})
+        said = self.end_of("mapper", session_folder=self.session)
+        self.assertIn("mapper/localizer/min_num_inliers", said)
+        self.assertIn("many", said)
+
+    def test_a_missing_session_is_named(self):
+        self.assertIn("session_folder", self.end_of("mapper"))
+
+    def test_a_folder_that_is_not_there_is_named(self):
+        self.assertIn("/no/such/card", self.ingest(photos_folder="/no/such/card"))
+
+    def test_a_missing_camera_file_is_named(self):
+        self.assertIn("/no/such/camera.yaml", self.ingest(camera_file="/no/such/camera.yaml"))
+
+    def test_a_camera_without_focal_length_is_named_with_file_and_field(self):
+        self.camera.write_text(wire.CAMERA_YAML.replace("[60, 0, 31.5", "[-60, 0, 31.5"))
+        said = self.ingest()
+        self.assertIn(str(self.camera), said)
+        self.assertIn("fx", said)
+
+    def test_another_camera_than_the_sessions_is_refused(self):
+        self.session.mkdir()
+        (self.session / "camera.yaml").write_text(wire.CAMERA_YAML.replace("60", "70"))
+        self.assertIn("another camera", self.ingest())
+
+
+if __name__ == "__main__":
+    rospy.init_node("start_test")
+    rostest.rosrun("plumbline", "start", StartTest)
