@@ -30,6 +30,13 @@ SHUFFLES = ["shuffle:1", "shuffle:2", "shuffle:3"]
 GROWTH_SCENE_PHOTOS = 100  # Fewer photos say nothing about growth.
 
 
+def built_program():
+    """The newest build: with the ROS nodes it lies under devel/."""
+    paths = [os.path.join(ROOT, "devel", "lib", "plumbline", "plumbline"),
+             os.path.join(ROOT, "build", "plumbline")]
+    return max(paths, key=lambda path: os.path.getmtime(path) if os.path.exists(path) else 0)
+
+
 def log(text):
     print(text, file=sys.stderr, flush=True)
 
@@ -311,7 +318,7 @@ def main():
     parser.add_argument("--data", default=os.environ.get(
         "PLUMBLINE_DATA", os.path.join(ROOT, "..", "shared", "data")), help="folder of scenes")
     parser.add_argument("--scene", action="append", help="only this one; repeat")
-    parser.add_argument("--plumbline", default=os.path.join(ROOT, "build", "plumbline"))
+    parser.add_argument("--plumbline", default=built_program())
     parser.add_argument("--output", default=os.path.join(ROOT, "build", "bench"))
     parser.add_argument("--no-orders", action="store_true", help="only the order of the names")
     parser.add_argument("--no-colmap", action="store_true")
