@@ -24,10 +24,11 @@ def read_structs():
     structs = {}
     for header in sorted(SOURCE.glob("include/plumbline/**/*.h")) + sorted(
             SOURCE.glob("src/ros/*.h")):
-        fields, comment = None, []
+        fields, comment, above = None, [], ""
         for line in header.read_text().splitlines():
             if match := STRUCT.match(line):
                 fields, comment = structs.setdefault(match[1], {}), []
+                above = ""
             elif line.startswith("}"):
                 fields = None
             elif fields is None:
@@ -39,10 +40,10 @@ def read_structs():
                 fields[last] = (fields[last][0], fields[last][1] + " " + line.strip(" /"))
             elif (match := FIELD.match(line)) and "(" not in line.split("=")[0].split("//")[0]:
                 text = " ".join(comment + ([match[3]] if match[3] else []))
-                fields[match[2]] = (match[1], text)
-                comment = []
+                fields[match[2]] = (match[1], text or above)
+                above, comment = fields[match[2]][1], []
             elif not line.strip():
-                comment = []
+                above, comment = "", []  # A comment is for all fields up to the next blank line.
     return structs
 
 

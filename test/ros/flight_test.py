@@ -160,6 +160,9 @@ class FlightTest(wire.FolderTest):
         for photo in rest:
             self.leave(photo.name, photo.read_bytes())
         self.wait_for_accepted([photo.name for photo in self.source])
+        self.deltas.wait(lambda heard: any(view.name == rest[-1].name
+                                           for delta in heard for view in delta.views_set),
+                         "the view of the last photo")  # It follows its verdict.
         snapshot = rospy.ServiceProxy("/plumbline/get_map", GetMap)().snapshot
         self.assertEqual({view.name for view in snapshot.views_set},
                          {photo.name for photo in self.source})
