@@ -31,6 +31,7 @@ struct BootstrapOptions {
   // Each new photo is paired with at most this many earlier ones.
   int max_partners = 8;
 
+  // Of RANSAC for each pair. Equal input and seed give equal pairs.
   int max_iterations = 2000;
   int random_seed = 1;
 

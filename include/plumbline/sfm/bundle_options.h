@@ -20,6 +20,7 @@ struct BundleOptions {
   // At most this many landmarks enter a local bundle, those with the longest tracks first.
   int max_local_landmarks = 3000;
 
+  // Steps of Levenberg-Marquardt; most bundles converge in fewer.
   int max_local_iterations = 8;
   int max_global_iterations = 15;
 

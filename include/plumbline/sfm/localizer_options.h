@@ -41,6 +41,8 @@ struct LocalizerOptions {
   // Once a pose is known, landmarks are searched within this radius of where they must be [px].
   double guided_radius_px = 8.0;
 
+  // RANSAC ends once a better pose would have been found with this confidence, within these
+  // bounds. Equal input and seed give equal poses.
   double confidence = 0.9999;
   int min_iterations = 50;
   int max_iterations = 3000;
