@@ -10,10 +10,10 @@
 #include "image/feature_extractor.h"
 #include "image/jpeg_raster.h"
 #include "image/opencv_raster.h"
-#include "image/photo_metadata.h"
 #include "image/stopwatch.h"
 #include "plumbline/common/options.h"
 #include "plumbline/image/content_hash.h"
+#include "plumbline/image/photo_metadata.h"
 
 namespace plumb {
 namespace {

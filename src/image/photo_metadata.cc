@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "image/photo_metadata.h"
+#include "plumbline/image/photo_metadata.h"
 
 #include <cmath>
 #include <ctime>

@@ -16,6 +16,7 @@
 
 #include "plumbline/common/atomic_file.h"
 #include "plumbline/common/check.h"
+#include "plumbline/image/photo_metadata.h"
 #include "ros/geometry_conversion.h"
 
 namespace plumb::ros_adapter {
@@ -109,18 +110,27 @@ std::optional<TakenPhoto> PhotoIntake::TakeFile(const std::string& path) {
   const Timestamp changed{status.st_mtim.tv_sec * 1'000'000'000LL + status.st_mtim.tv_nsec};
   const std::string source = std::filesystem::path(path).filename().string();
   if (IsKnown(source, changed)) return std::nullopt;
-  return TakeBytes(source, changed, ReadFileBytes(path));
+  const std::vector<std::uint8_t> bytes = ReadFileBytes(path);
+  return Take(source, changed, ReadPhotoMetadata(bytes).exposure_time.value_or(changed), bytes);
 }
 
 std::optional<TakenPhoto> PhotoIntake::TakeBytes(const std::string& source,
                                                  Timestamp time,
                                                  const std::vector<std::uint8_t>& bytes) {
+  return Take(source, time, time, bytes);
+}
+
+std::optional<TakenPhoto> PhotoIntake::Take(const std::string& source,
+                                            Timestamp source_time,
+                                            Timestamp exposure_time,
+                                            const std::vector<std::uint8_t>& bytes) {
   TakenPhoto photo;
   photo.received = Now();
   photo.source = source;
-  photo.source_time = time;
+  photo.source_time = source_time;
+  photo.exposure_time = FitsRosTime(exposure_time) ? exposure_time : photo.received;
+  photo.position = ReadPhotoMetadata(bytes).position;
   photo.name = folder_.Save(source, bytes);
-  photo.exposure_time = FitsRosTime(time) ? time : photo.received;
 
   const std::lock_guard<std::mutex> lock(mutex_);
   if (sequence_of_name_.count(photo.name) != 0) return std::nullopt;

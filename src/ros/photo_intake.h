@@ -35,7 +35,8 @@ class PhotoIntake {
   // std::runtime_error naming the file if a line makes no sense or nothing can be written.
   explicit PhotoIntake(const std::string& session_folder);
 
-  // Takes up a photo from a file; nothing if it was taken up before, whole and unchanged.
+  // Takes up a photo from a file; nothing if it was taken up before, whole and unchanged. The
+  // time of exposure is that of EXIF, else the file's time of change.
   // Throws std::runtime_error naming the file if it cannot be read or kept.
   std::optional<TakenPhoto> TakeFile(const std::string& path);
 
@@ -53,6 +54,10 @@ class PhotoIntake {
 
  private:
   void ReadLedger();
+  std::optional<TakenPhoto> Take(const std::string& source,
+                                 Timestamp source_time,
+                                 Timestamp exposure_time,
+                                 const std::vector<std::uint8_t>& bytes);
   bool IsKnown(const std::string& source, Timestamp source_time) const;
   void Append(const TakenPhoto& photo);
 

@@ -123,6 +123,38 @@ TEST_F(PhotoIntakeTest, NamesAFileThatIsGone) {
   }
 }
 
+// The smallest JPEG that carries EXIF: DateTimeOriginal and nothing else.
+std::string JpegTakenAt(const std::string& time) {
+  const auto number = [](std::uint32_t value, int num_bytes) {
+    std::string text;
+    for (int i = 0; i < num_bytes; ++i) text += static_cast<char>((value >> (8 * i)) & 0xFFU);
+    return text;
+  };
+  std::string tiff = "II" + number(42, 2) + number(8, 4);
+  tiff += number(1, 2) + number(0x8769, 2) + number(4, 2) + number(1, 4) + number(26, 4);
+  tiff += number(0, 4);  // No further directory.
+  tiff += number(1, 2) + number(0x9003, 2) + number(2, 2) + number(20, 4) + number(44, 4);
+  tiff += number(0, 4) + time + '\0';
+  const std::string body = std::string("Exif\0\0", 6) + tiff;
+  const std::size_t size = body.size() + 2;
+  return "\xFF\xD8\xFF\xE1" + std::string{static_cast<char>(size >> 8), static_cast<char>(size)} +
+         body + "\xFF\xD9";
+}
+
+TEST_F(PhotoIntakeTest, TakesTheTimeOfExposureFromExif) {
+  PhotoIntake intake(session_.path());
+  const auto photo = Take(&intake, "a.jpg", JpegTakenAt("2020:01:02 03:04:05"));
+  ASSERT_TRUE(photo);
+  EXPECT_EQ(photo->exposure_time, Timestamp{1'577'934'245'000'000'000});
+}
+
+TEST_F(PhotoIntakeTest, TakesTheFilesTimeWhereThereIsNoExif) {
+  PhotoIntake intake(session_.path());
+  const auto photo = Take(&intake, "a.jpg", "one");
+  ASSERT_TRUE(photo);
+  EXPECT_EQ(photo->exposure_time, photo->source_time);
+}
+
 TEST_F(PhotoIntakeTest, KeepsTheStampOfAnImageFromATopic) {
   PhotoIntake intake(session_.path());
   const auto photo = intake.TakeBytes("5.png", Timestamp{5'000'000'001}, Bytes("pixels"));
