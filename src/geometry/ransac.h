@@ -5,40 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <optional>
-#include <random>
 #include <vector>
 
+#include "geometry/sampler.h"
+#include "geometry/sequential_test.h"
+
 namespace plumb {
-
-// A uniform sampler that does not depend on the library's distributions.
-class Sampler {
- public:
-  explicit Sampler(int seed) : generator_(static_cast<std::uint32_t>(seed)) {}
-
-  // An index below `size`, which must be positive.
-  int Index(int size) {
-    const std::uint64_t product = std::uint64_t{generator_()} * static_cast<std::uint32_t>(size);
-    return static_cast<int>(product >> 32);
-  }
-
-  // kCount distinct indices below `size` >= kCount.
-  template <std::size_t kCount>
-  std::array<int, kCount> Distinct(int size) {
-    std::array<int, kCount> indices = {};
-    for (std::size_t i = 0; i < kCount; ++i) {
-      do {
-        indices[i] = Index(size);
-      } while (std::find(indices.begin(), indices.begin() + i, indices[i]) != indices.begin() + i);
-    }
-    return indices;
-  }
-
- private:
-  std::mt19937 generator_;
-};
 
 struct RansacOptions {
   double max_error = 0.0;
@@ -54,47 +28,6 @@ struct RansacResult {
   double cost = std::numeric_limits<double>::infinity();  // Sum of min(error^2 / bound^2, 1).
   int num_inliers = 0;
   int num_iterations = 0;
-};
-
-// Wald's sequential test of a model against the matches (Matas & Chum, Randomized RANSAC with
-// Sequential Probability Ratio Test, ICCV 2005): most bad models are refused after a few.
-class SequentialTest {
- public:
-  // One good model in so many is refused by mistake.
-  static constexpr double kDecisionThreshold = 100.0;
-
-  SequentialTest() { Update(); }
-
-  // A good model has this ratio of inliers.
-  void SetGoodRatio(double ratio) {
-    good_ratio_ = ratio;
-    Update();
-  }
-  // A refused model had so many inliers among so many matches tried.
-  void AddRefused(int num_inliers, int num_tried) {
-    refused_inliers_ += num_inliers;
-    refused_tried_ += num_tried;
-    if (++num_refused_ % 16 == 0) Update();
-  }
-
-  double log_inlier_factor() const { return log_inlier_factor_; }
-  double log_outlier_factor() const { return log_outlier_factor_; }
-
- private:
-  void Update() {
-    // Starts as if 1000 matches had been tried with 1 % inliers by chance.
-    bad_ratio_ = std::min((10.0 + refused_inliers_) / (1000.0 + refused_tried_), 0.5 * good_ratio_);
-    log_inlier_factor_ = std::log(bad_ratio_ / good_ratio_);
-    log_outlier_factor_ = std::log((1.0 - bad_ratio_) / (1.0 - good_ratio_));
-  }
-
-  double good_ratio_ = 0.1;  // Until a model is found: the hardest case worth its time.
-  double bad_ratio_ = 0.0;
-  double refused_inliers_ = 0.0;
-  double refused_tried_ = 0.0;
-  int num_refused_ = 0;
-  double log_inlier_factor_ = 0.0;
-  double log_outlier_factor_ = 0.0;
 };
 
 // Locally optimised RANSAC (Chum, Matas & Kittler, DAGM 2003) with truncated squared errors
