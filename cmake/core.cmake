@@ -71,7 +71,7 @@ function(plumb_module_test name)
   add_test(NAME ${name}_test COMMAND ${name}_test)
 endfunction()
 foreach(module common geometry camera image map matching sfm export tools)
-  plumb_module_test(${module} plumb_${module})
+  plumb_module_test(${module} plumb_${module} plumb_camera)  # test/support makes scenes.
 endforeach()
 
 # Timing programs: test/benchmark/*_benchmark.cc.

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/epipolar.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 #include <cmath>
+#include <limits>
 
 #include "geometry/levenberg_marquardt.h"
 #include "geometry/pose_refinement.h"
@@ -122,6 +124,28 @@ Rigid3 MinimizeSampsonError(const Rigid3& initial,
       max_iterations,
       [&](const Rigid3& pose) { return Linearize(pose, matches, huber_width); },
       Move);
+}
+
+RelativePoseSigmas SigmasOf(const Rigid3& cam2_from_cam1,
+                            const std::vector<NormalizedMatch>& matches,
+                            double error_sigma) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const Eigen::Matrix<double, 5, 5> information =
+      Linearize(cam2_from_cam1, matches, kInfinity).hessian;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 5, 5>> solver(information);
+  const auto& eigenvalues = solver.eigenvalues();
+  constexpr double kRounding = 1e-14;
+  if (!(eigenvalues[0] > kRounding * eigenvalues[4])) return {kInfinity, kInfinity};
+  const Eigen::Matrix<double, 5, 5> covariance = solver.eigenvectors() *
+                                                 eigenvalues.cwiseInverse().asDiagonal() *
+                                                 solver.eigenvectors().transpose();
+  const auto largest_sigma = [&](const auto& block) {
+    const Eigen::MatrixXd symmetric = block;
+    return error_sigma *
+           std::sqrt(symmetric.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff());
+  };
+  return {largest_sigma(covariance.topLeftCorner<3, 3>()),
+          largest_sigma(covariance.bottomRightCorner<2, 2>())};
 }
 
 }  // namespace plumb

@@ -41,4 +41,17 @@ Rigid3 MinimizeSampsonError(const Rigid3& initial,
                             double huber_width,
                             int max_iterations);
 
+// Standard deviations of a relative pose: those of the least certain turn and of the least certain
+// move of the translation's direction. Infinite where the matches do not fix the pose.
+struct RelativePoseSigmas {
+  double turn_rad = 0.0;
+  double direction_rad = 0.0;
+};
+
+// By the normal equations of the Sampson errors at the pose that minimises them, for matches whose
+// errors have the standard deviation `error_sigma`.
+RelativePoseSigmas SigmasOf(const Rigid3& cam2_from_cam1,
+                            const std::vector<NormalizedMatch>& matches,
+                            double error_sigma);
+
 }  // namespace plumb

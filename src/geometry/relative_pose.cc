@@ -111,6 +111,10 @@ class HomographyProblem {
   const Matches& matches_;
 };
 
+// Poses farther apart than this are two different ones.
+constexpr double kMinTurnRad = 0.01;
+constexpr double kMinDirectionRad = 0.1;
+
 struct Candidate {
   TwoViewResult::Model model;
   Rigid3 cam2_from_cam1;
@@ -152,17 +156,23 @@ std::vector<Candidate> FindCandidates(const TwoViewOptions& options,
   return candidates;
 }
 
+Matches InliersOf(const Matches& matches, const TwoViewSupport& support) {
+  Matches inliers;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (support.is_inlier[i]) inliers.push_back(matches[i]);
+  }
+  return inliers;
+}
+
 // Refines a pose on its inliers until they no longer change for the better.
 void RefineCandidate(const Matches& matches, double max_error, Candidate* candidate) {
   constexpr int kMaxRounds = 4;
   constexpr int kMaxIterations = 10;
   for (int round = 0; round < kMaxRounds; ++round) {
-    Matches inliers;
-    for (std::size_t i = 0; i < matches.size(); ++i) {
-      if (candidate->support.is_inlier[i]) inliers.push_back(matches[i]);
-    }
-    const Rigid3 pose =
-        MinimizeSampsonError(candidate->cam2_from_cam1, inliers, max_error, kMaxIterations);
+    const Rigid3 pose = MinimizeSampsonError(candidate->cam2_from_cam1,
+                                             InliersOf(matches, candidate->support),
+                                             max_error,
+                                             kMaxIterations);
     TwoViewSupport support = SupportOf(pose, matches, max_error);
     if (!(support.cost < candidate->support.cost)) return;
     candidate->cam2_from_cam1 = pose;
@@ -172,13 +182,20 @@ void RefineCandidate(const Matches& matches, double max_error, Candidate* candid
 
 // Whether two poses, each a local optimum, are not the same one.
 bool AreDifferent(const Rigid3& a, const Rigid3& b) {
-  constexpr double kMinTurnRad = 0.01;
-  constexpr double kMinDirectionRad = 0.1;
   return a.rotation.angularDistance(b.rotation) > kMinTurnRad ||
          std::acos(std::clamp(a.translation.dot(b.translation), -1.0, 1.0)) > kMinDirectionRad;
 }
 
-bool IsAmbiguous(const std::vector<Candidate>& candidates, const Candidate& best) {
+// Whether poses that differ from a candidate by little in their errors differ by much from it:
+// too few matches, too near to each other, or with too little parallax.
+bool IsUncertain(const Matches& matches, double max_error, const Candidate& candidate) {
+  constexpr double kErrorSigma = 1.0 / 3.0;  // Of max_error, as the bound is usually chosen.
+  const RelativePoseSigmas sigmas = SigmasOf(
+      candidate.cam2_from_cam1, InliersOf(matches, candidate.support), kErrorSigma * max_error);
+  return !(sigmas.turn_rad < kMinTurnRad && sigmas.direction_rad < kMinDirectionRad);
+}
+
+bool HasTwin(const std::vector<Candidate>& candidates, const Candidate& best) {
   // A twin of a plane with some relief loses the matches off the plane; one that loses
   // fewer than a tenth may be the true one.
   constexpr double kNearly = 0.9;
@@ -227,7 +244,8 @@ std::optional<TwoViewResult> EstimateTwoView(const TwoViewOptions& options,
   result.num_inliers = best->support.num_inliers;
   result.is_inlier = best->support.is_inlier;
   result.median_parallax_rad = MedianParallax(result.cam2_from_cam1, matches, result.is_inlier);
-  result.is_ambiguous = IsAmbiguous(candidates, *best);
+  result.is_ambiguous =
+      HasTwin(candidates, *best) || IsUncertain(matches, options.max_error, *best);
   return result;
 }
 

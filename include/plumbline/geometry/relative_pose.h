@@ -43,7 +43,8 @@ struct TwoViewResult {
   int num_essential_inliers = 0;   // Of the best essential matrix, by Sampson error.
   int num_homography_inliers = 0;  // Of the best homography, by transfer error both ways.
 
-  // A different pose explains nearly as many matches, as an exact plane allows.
+  // A different pose explains nearly as many matches, as an exact plane allows, or the matches
+  // leave the pose uncertain by more than 0.01 rad in rotation or 0.1 rad in direction (one sigma).
   bool is_ambiguous = false;
 };
 
