@@ -16,10 +16,6 @@ std::vector<std::string> BundleOptions::Problems() const {
       max_global_iterations >= 1, "max_global_iterations", "at least 1", max_global_iterations);
   list.Require(
       function_tolerance > 0.0, "function_tolerance", "greater than 0", function_tolerance);
-  list.Require(final_function_tolerance > 0.0,
-               "final_function_tolerance",
-               "greater than 0",
-               final_function_tolerance);
   list.Require(
       global_growth_ratio > 1.0, "global_growth_ratio", "greater than 1", global_growth_ratio);
   list.Require(

@@ -13,6 +13,12 @@
 namespace plumb {
 namespace {
 
+// A SIFT feature is as uncertain as it is large (Lowe, IJCV 2004: position is refined to a
+// fraction of the scale): one of the finest features of the photo weighs 1.
+double WeightOf(const FeatureSet& features, std::uint32_t feature_idx) {
+  return features.features.back().scale_px / features.features[feature_idx].scale_px;
+}
+
 // Copies views and landmarks of a map into a problem, each once.
 class ProblemBuilder {
  public:
@@ -34,7 +40,7 @@ class ProblemBuilder {
       problem_.observations.push_back({ViewIndex(observation.photo, /*is_fixed=*/true),
                                        landmark_idx,
                                        map_.PixelOf(observation),
-                                       1.0});
+                                       WeightOf(*view.features, observation.feature_idx)});
     }
   }
 

@@ -11,8 +11,22 @@
 namespace plumb {
 namespace {
 
-// Rounds of completing tracks, bundling and culling at the end of a session.
-constexpr int kNumFinalRounds = 3;
+// At the end of a session the bounds on errors are opened by these factors and closed again: what
+// an early, bent state of the map had shut out gets another chance. Over five orders of
+// Herz-Jesus-P8 this took the mean error from 3.6-3.8 mm to 3.3-3.5 mm.
+constexpr double kFinalBoundFactors[] = {2.0, 2.0, 1.0, 1.0};
+
+RetrievalOptions RetrievalOptionsOf(const MapperOptions& options) {
+  RetrievalOptions retrieval = options.retrieval;
+  retrieval.deterministic = options.deterministic;
+  return retrieval;
+}
+
+ExpanderOptions Widened(ExpanderOptions options, double factor) {
+  options.max_epipolar_error_px *= factor;
+  options.max_error_px *= factor;
+  return options;
+}
 
 }  // namespace
 
@@ -20,7 +34,7 @@ Mapper::Impl::Impl(const MapperOptions& options, const Camera& camera, MapperLis
     : options_(options),
       camera_(camera),
       listener_(listener),
-      retrieval_(options.retrieval),
+      retrieval_(RetrievalOptionsOf(options)),
       matches_(options.matcher),
       background_(options.bundle) {
   ThrowIfProblems("mapper", options.Problems());
@@ -137,19 +151,23 @@ void Mapper::Impl::AdoptLens(const LensParameters<double>& lens) {
 }
 
 void Mapper::Impl::FinalBundle() {
-  for (int i = 0; i < kNumFinalRounds; ++i) {
-    CompleteTracks(options_.expander, camera_, matches_, map_.LandmarkIds(), &map_);
+  for (const double factor : kFinalBoundFactors) {
+    const ExpanderOptions options = Widened(options_.expander, factor);
+    for (const auto& [photo, view] : map_.views()) {
+      ExpandMap(options, camera_, matches_, records_, photo, &map_);
+    }
+    CompleteTracks(options, camera_, matches_, map_.LandmarkIds(), &map_);
     BundleProblem problem = MakeGlobalBundle(map_, camera_.lens());
     const BundleReport report = SolveBundle(options_.bundle,
                                             options_.bundle.max_global_iterations,
-                                            options_.bundle.final_function_tolerance,
+                                            options_.bundle.function_tolerance,
                                             nullptr,
                                             &problem);
     if (report.is_usable) {
       ApplyBundle(problem, &map_);
       AdoptLens(problem.lens);
     }
-    CullLandmarks(options_.expander, camera_, map_.LandmarkIds(), &map_);
+    CullLandmarks(options, camera_, map_.LandmarkIds(), &map_);
   }
   num_views_at_last_bundle_ = map_.views().size();
   EmitDelta();

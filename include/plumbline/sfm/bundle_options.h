@@ -10,9 +10,9 @@
 namespace plumb {
 
 struct BundleOptions {
-  // Width of the Huber norm [px]: residuals beyond it count linearly. SIFT positions
-  // scatter by about half a pixel of the octave they come from.
-  double huber_width_px = 1.0;
+  // Width of the Huber norm [px of the finest features]: residuals beyond it count
+  // linearly. About four times the scatter of the residuals.
+  double huber_width_px = 2.0;
 
   // After a photo: it and this many of the views that share most landmarks with it move.
   int num_local_views = 6;
@@ -22,13 +22,11 @@ struct BundleOptions {
 
   // Steps of Levenberg-Marquardt; most bundles converge in fewer.
   int max_local_iterations = 8;
-  int max_global_iterations = 15;
+  int max_global_iterations = 20;
 
-  // Stop when an iteration lowers the cost by less than this fraction.
+  // Stop when an iteration lowers the cost by less than this fraction. A thousand times less
+  // moves the cameras of the shared scenes by about 0.1 mm in the mean error.
   double function_tolerance = 1e-4;
-
-  // Of the last bundle of a session.
-  double final_function_tolerance = 1e-7;
 
   // A global bundle starts when the number of views has grown by this factor
   // since the last one: its cost per photo then stays bounded.
@@ -56,7 +54,6 @@ void VisitFields(BundleOptions& options, Visitor&& visit) {
   visit("max_local_iterations", options.max_local_iterations);
   visit("max_global_iterations", options.max_global_iterations);
   visit("function_tolerance", options.function_tolerance);
-  visit("final_function_tolerance", options.final_function_tolerance);
   visit("global_growth_ratio", options.global_growth_ratio);
   visit("global_latency_photos", options.global_latency_photos);
   visit("refine_focal_length", options.refine_focal_length);
