@@ -64,6 +64,32 @@ Similarity3 MotionOf(const BundleView& before, const BundleView& after) {
   return {1.0, motion.rotation, motion.translation};
 }
 
+using Motions = std::map<PhotoId, Similarity3>;  // map_from_map of each view's surroundings.
+
+// Of the views that were solved; a later one takes the motion of the view it shares most with,
+// also where that is itself a later one.
+Motions MotionsOfViews(const BundleProblem& before, const BundleProblem& after, const Map& map) {
+  Motions motions;
+  for (std::size_t i = 0; i < before.views.size(); ++i) {
+    if (!map.HasView(before.views[i].photo)) continue;
+    motions[before.views[i].photo] = MotionOf(before.views[i], after.views[i]);
+  }
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (const auto& [photo, view] : map.views()) {
+      if (motions.count(photo) != 0) continue;
+      for (const CovisibleView& other : CovisibleViews(map, photo)) {
+        const auto motion = motions.find(other.photo);
+        if (motion == motions.end()) continue;
+        motions[photo] = motion->second;
+        grows = true;
+        break;
+      }
+    }
+  }
+  return motions;
+}
+
 }  // namespace
 
 BundleProblem MakeGlobalBundle(const Map& map, const LensParameters<double>& lens) {
@@ -105,20 +131,7 @@ void ApplyBundle(const BundleProblem& problem, Map* map) {
 }
 
 void ApplyStaleBundle(const BundleProblem& before, const BundleProblem& after, Map* map) {
-  std::map<PhotoId, Similarity3> motions;  // map_from_map of each view's surroundings.
-  for (std::size_t i = 0; i < before.views.size(); ++i) {
-    if (!map->HasView(before.views[i].photo)) continue;
-    motions[before.views[i].photo] = MotionOf(before.views[i], after.views[i]);
-  }
-  for (const auto& [photo, view] : map->views()) {
-    if (motions.count(photo) != 0) continue;
-    for (const CovisibleView& other : CovisibleViews(*map, photo)) {
-      const auto motion = motions.find(other.photo);
-      if (motion == motions.end()) continue;
-      motions[photo] = motion->second;
-      break;
-    }
-  }
+  const Motions motions = MotionsOfViews(before, after, *map);
   std::vector<std::optional<Eigen::Vector3d>> solved;
   for (const BundleLandmark& landmark : after.landmarks) {
     if (solved.size() <= landmark.id.value) solved.resize(landmark.id.value + 1);
