@@ -76,7 +76,7 @@ void Mapper::Impl::Poll() {
 
 void Mapper::Impl::Finish() {
   if (background_.IsRunning()) TakeBackground();
-  RetryAllPending();
+  if (!map_.views().empty()) RetryAllPending();
   retry_queue_.clear();
   for (const PhotoId photo : PendingPhotos()) {
     const PhotoVerdict& verdict = states_.at(photo).verdict;
