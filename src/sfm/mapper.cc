@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plumbline/sfm/mapper.h"
 
+#include <stdexcept>
 #include <utility>
 
 #include "plumbline/common/check.h"
@@ -136,18 +137,24 @@ void Mapper::Impl::ManageBackground() {
 
 void Mapper::Impl::TakeBackground() {
   const BackgroundBundle::Outcome outcome = background_.Take();
-  if (!outcome.report.is_usable) return;
+  if (!outcome.report.is_usable || !AdoptLens(outcome.after.lens)) return;
   ApplyStaleBundle(outcome.before, outcome.after, &map_);
-  AdoptLens(outcome.after.lens);
   CullLandmarks(options_.expander, camera_, map_.LandmarkIds(), &map_);
   EmitDelta();
 }
 
-void Mapper::Impl::AdoptLens(const LensParameters<double>& lens) {
-  if (lens == camera_.lens()) return;
-  camera_ = Camera(camera_.name(), camera_.width_px(), camera_.height_px(), camera_.model(), lens);
+// False if no camera can have that lens: a bundle of too few views may bend it out of shape.
+bool Mapper::Impl::AdoptLens(const LensParameters<double>& lens) {
+  if (lens == camera_.lens()) return true;
+  try {
+    camera_ =
+        Camera(camera_.name(), camera_.width_px(), camera_.height_px(), camera_.model(), lens);
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
   map_.SetLens(lens);
   for (auto& [photo, record] : records_) UpdateRays(camera_, &record);
+  return true;
 }
 
 void Mapper::Impl::FinalBundle() {
@@ -163,10 +170,7 @@ void Mapper::Impl::FinalBundle() {
                                             options_.bundle.function_tolerance,
                                             nullptr,
                                             &problem);
-    if (report.is_usable) {
-      ApplyBundle(problem, &map_);
-      AdoptLens(problem.lens);
-    }
+    if (report.is_usable && AdoptLens(problem.lens)) ApplyBundle(problem, &map_);
     CullLandmarks(options, camera_, map_.LandmarkIds(), &map_);
   }
   num_views_at_last_bundle_ = map_.views().size();

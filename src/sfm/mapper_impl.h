@@ -84,7 +84,7 @@ class Mapper::Impl {
   // The whole map (mapper.cc).
   void ManageBackground();
   void TakeBackground();
-  void AdoptLens(const LensParameters<double>& lens);
+  bool AdoptLens(const LensParameters<double>& lens);
   void FinalBundle();
 
   MapperOptions options_;
