@@ -71,7 +71,10 @@ class Mapper::Impl {
   Location LocationInMap(PhotoId photo, int num_matches) const;
 
   // One photo in a map (mapper_steps.cc).
-  std::vector<PhotoId> CandidateViews(PhotoId photo) const;
+  std::vector<RankedView> RankedMapViews(PhotoId photo) const;
+  std::vector<PhotoId> CandidateViews(const std::vector<RankedView>& ranked) const;
+  std::optional<PhotoId> LikestElsewhere(const std::vector<RankedView>& ranked,
+                                         const Location& location) const;
   std::vector<MapMatch> MatchWithViews(PhotoId photo, const std::vector<PhotoId>& views);
   Location Locate(PhotoId photo);
   bool TryAccept(PhotoId photo);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <set>
+#include <unordered_set>
 
 #include "plumbline/common/stopwatch.h"
 #include "sfm/covisibility.h"
@@ -14,6 +15,10 @@ namespace {
 // The inverted file ranks all photos, located or not: this many times the wanted views are asked
 // for.
 constexpr int kRankedPerView = 6;
+
+// A view that scores less than this fraction of the best one's is not suspected to show a twin of
+// the place: half of what would make the photo ambiguous, for scores scatter.
+constexpr double kMinLikeness = 0.25;
 
 // Features compared to see whether a refused photo lies near a new view, and the matches
 // that make it worth another try.
@@ -39,21 +44,57 @@ RefusalReason ReasonOf(Localization::Status status) {
 
 }  // namespace
 
-// The views that look most like the photo, and the one located last: a pilot flies on.
-std::vector<PhotoId> Mapper::Impl::CandidateViews(PhotoId photo) const {
-  std::vector<PhotoId> views;
-  const auto num_views = static_cast<std::size_t>(options_.localizer.num_views);
+// The views that look like the photo, most alike first.
+std::vector<RankedView> Mapper::Impl::RankedMapViews(PhotoId photo) const {
+  std::vector<RankedView> views;
   const DescriptorMatrix& descriptors = records_.at(photo).features->descriptors;
   for (const RankedView& ranked :
        retrieval_.Query(descriptors, kRankedPerView * options_.localizer.num_views)) {
-    if (views.size() == num_views) break;
-    if (map_.HasView(ranked.photo)) views.push_back(ranked.photo);
+    if (map_.HasView(ranked.photo)) views.push_back(ranked);
+  }
+  return views;
+}
+
+// The views that look most like the photo, and the one located last: a pilot flies on.
+std::vector<PhotoId> Mapper::Impl::CandidateViews(const std::vector<RankedView>& ranked) const {
+  std::vector<PhotoId> views;
+  for (const RankedView& view : ranked) {
+    if (views.size() == static_cast<std::size_t>(options_.localizer.num_views)) break;
+    views.push_back(view.photo);
   }
   const bool has_last = last_accepted_ && map_.HasView(*last_accepted_);
   if (has_last && std::find(views.begin(), views.end(), *last_accepted_) == views.end()) {
     views.push_back(*last_accepted_);
   }
   return views;
+}
+
+// The most alike of the views that the photo was not matched with and that see few of the
+// landmarks matched: it looks like the photo for another reason. Where windows repeat, all of the
+// matched views may show one place and the photo another: matches with both tell.
+std::optional<PhotoId> Mapper::Impl::LikestElsewhere(const std::vector<RankedView>& ranked,
+                                                     const Location& location) const {
+  if (ranked.size() <= location.views.size()) return std::nullopt;
+  std::unordered_set<LandmarkId> matched;
+  for (const MapMatch& match : location.matches) matched.insert(match.landmark);
+  const auto num_matched = [&](PhotoId photo) {
+    const std::vector<LandmarkId>& ids = map_.view(photo).landmark_of_feature;
+    return std::count_if(
+        ids.begin(), ids.end(), [&](LandmarkId id) { return matched.count(id) != 0; });
+  };
+  const double enough_for_score = options_.localizer.max_second_pose_ratio *
+                                  static_cast<double>(num_matched(ranked[0].photo)) /
+                                  ranked[0].score;
+  for (const RankedView& view : ranked) {
+    if (view.score < kMinLikeness * ranked[0].score) break;
+    const bool is_known =
+        std::find(location.views.begin(), location.views.end(), view.photo) != location.views.end();
+    if (is_known) continue;
+    if (static_cast<double>(num_matched(view.photo)) < enough_for_score * view.score) {
+      return view.photo;
+    }
+  }
+  return std::nullopt;
 }
 
 std::vector<MapMatch> Mapper::Impl::MatchWithViews(PhotoId photo,
@@ -75,9 +116,14 @@ Mapper::Impl::Location Mapper::Impl::Locate(PhotoId photo) {
   StageSeconds& seconds = states_.at(photo).verdict.seconds;
   Stopwatch stopwatch;
   Location location;
-  location.views = CandidateViews(photo);
+  const std::vector<RankedView> ranked = RankedMapViews(photo);
+  location.views = CandidateViews(ranked);
   seconds.retrieval_s += stopwatch.Restart();
   location.matches = MatchWithViews(photo, location.views);
+  if (const auto elsewhere = LikestElsewhere(ranked, location)) {
+    location.views.push_back(*elsewhere);
+    location.matches = MatchWithViews(photo, location.views);
+  }
   seconds.matching_s += stopwatch.Restart();
   const PhotoRecord& record = records_.at(photo);
   location.localization =

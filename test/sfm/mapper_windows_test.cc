@@ -124,11 +124,14 @@ TEST(MapperTwinBays, RowIsLocatedByWhatIsUnique) {
   }
 }
 
+// All of the most alike views show the left bay.
 TEST(MapperTwinBays, PhotoOfTheBayWithFewerViewsIsNotPutInTheOther) {
   const TwinBays bays = MakeTwinBays(/*num_extra=*/12);
   constexpr std::size_t kCamera = 10;  // Before the right bay.
+  MapperOptions options;
+  options.retrieval.num_training_photos = 1000;  // Never: likeness is the number of matches.
   test::Recorder heard;
-  Mapper mapper({}, bays.scene.camera, &heard);
+  Mapper mapper(options, bays.scene.camera, &heard);
   for (std::uint32_t i = 0; i < bays.photos.size(); ++i) {
     if (i != kCamera) mapper.Add(test::MakeMapperPhoto(i, bays.photos[i].features));
   }
