@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "test/sfm/map_invariants.h"
 #include "test/sfm/scene_photos.h"
 
 namespace plumb {

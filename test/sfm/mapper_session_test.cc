@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "test/sfm/equal_deltas.h"
+#include "test/sfm/map_invariants.h"
 #include "test/sfm/mapper_flight.h"
 
 namespace plumb {

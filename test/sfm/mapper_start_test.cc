@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "test/sfm/equal_deltas.h"
 #include "test/sfm/mapper_flight.h"
 
 namespace plumb {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "test/sfm/map_invariants.h"
 #include "test/sfm/mapper_flight.h"
 
 namespace plumb {
