@@ -10,7 +10,7 @@ DATA := $(or $(PLUMBLINE_DATA),$(abspath ../shared/data))
 PHOTOS ?= $(DATA)/fountain-P11/photos
 CAMERA ?= $(dir $(patsubst %/,%,$(PHOTOS)))camera.yaml
 
-.PHONY: help deps build test test-sanitize bench demo docs format lint clean
+.PHONY: help has-photos deps build test test-sanitize bench demo docs format lint clean
 
 help: ## Show the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-14s %s\n", $$1, $$2}' Makefile
@@ -39,7 +39,11 @@ test-sanitize: deps ## Run the core's tests under AddressSanitizer and Undefined
 bench: build ## Measure accuracy and seconds a photo on the shared scenes, into build/bench
 	/usr/bin/python3 scripts/bench.py
 
-demo: build ## Fly PHOTOS= with CAMERA= through the live ROS graph and RViz (default: fountain-P11)
+has-photos:
+	@test -d "$(PHOTOS)" || { echo "demo: no folder $(PHOTOS): give PHOTOS=dir CAMERA=camera.yaml, or" \
+	  "PLUMBLINE_DATA= the folder that holds fountain-P11" >&2; exit 1; }
+
+demo: has-photos build ## Fly PHOTOS= with CAMERA= through the live ROS graph and RViz (default: fountain-P11)
 	source devel/setup.bash && scripts/demo.py --photos "$(PHOTOS)" --camera "$(CAMERA)" --out $(BUILD)/demo
 
 docs: build ## Write the generated pages of docs/ anew
