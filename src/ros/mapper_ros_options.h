@@ -24,7 +24,7 @@ struct MapperRosOptions {
   std::string overview_frame_id = "map_overview";
   double overview_yaw_deg = 255.0;   // From the side of the first camera, a little to the left.
   double overview_pitch_deg = 20.0;  // A little from above.
-  double overview_distance = 20.0;   // [map units: the distance of the first two cameras].
+  double overview_distance = 20.0;   // [map units: a tenth of the first median depth].
   double overview_half_angle_deg = 17.0;  // RViz sees 45 degrees, in a window that may be slim.
 
   // Photos that wait for their features. What comes when it is full is dropped and sent again by

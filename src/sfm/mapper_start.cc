@@ -54,7 +54,7 @@ void Mapper::Impl::TryStart(PhotoId photo) {
   }
   Location nowhere;
   nowhere.views = search.partners;
-  const bool is_first = states_.size() == 1;
+  const bool is_first = records_.size() == 1;  // That could be analysed.
   PublishRefusal(
       photo, is_first ? RefusalReason::kNone : search.reason, VerdictStatus::kWaiting, nowhere);
 }
