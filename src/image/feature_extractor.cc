@@ -11,7 +11,7 @@
 #include "image/parallel_for.h"
 #include "image/scaled_idct.h"
 #include "image/sift_descriptor.h"
-#include "image/stopwatch.h"
+#include "plumbline/common/stopwatch.h"
 
 namespace plumb {
 namespace {

@@ -10,8 +10,8 @@
 #include "image/feature_extractor.h"
 #include "image/jpeg_raster.h"
 #include "image/opencv_raster.h"
-#include "image/stopwatch.h"
 #include "plumbline/common/options.h"
+#include "plumbline/common/stopwatch.h"
 #include "plumbline/image/content_hash.h"
 #include "plumbline/image/photo_metadata.h"
 
