@@ -95,30 +95,14 @@ LiveMapper::LiveMapper(const MapperOptions& options,
 
 LiveMapper::~LiveMapper() { is_stopping_ = true; }
 
-LiveMapper::StoredSession LiveMapper::ReadSession() {
-  StoredSession session;
-  session.snapshot = store_.Snapshot();
-  std::set<PhotoId> views;
-  for (const ViewState& view : session.snapshot.views_set) views.insert(view.photo);
-  for (const PhotoVerdict& verdict : store_.LatestVerdicts()) {
-    // A photo that was accepted but whose view did not reach the disk is sent again.
-    const bool is_lost = verdict.status == VerdictStatus::kAccepted && !views.count(verdict.photo);
-    if (is_lost) continue;
-    session.verdicts.push_back(verdict);
+StoredSession LiveMapper::ReadSession() {
+  StoredSession session = ReadStoredSession(store_);
+  for (const PhotoVerdict& verdict : session.verdicts) {
     verdicts_[verdict.photo] = verdict;
     stored_verdicts_.insert(verdict.photo.value);
   }
-  for (const StoredPhoto& stored : store_.Photos()) {
-    stored_photos_.insert(stored.id);
-    if (verdicts_.count(stored.id) == 0 || !stored.analysis) continue;
-    MapperPhoto photo;
-    photo.id = stored.id;
-    photo.name = stored.name;
-    photo.exposure_time = stored.exposure_time.value_or(Timestamp{});
-    photo.analysis = *stored.analysis;
-    photo.analysis.features = store_.LoadFeatures(stored.id);
-    session.photos.push_back(std::move(photo));
-  }
+  for (const MapperPhoto& photo : session.photos) stored_photos_.insert(photo.id);
+  for (const StoredPhoto& photo : session.unfinished) stored_photos_.insert(photo.id);
   return session;
 }
 

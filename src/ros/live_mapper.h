@@ -22,6 +22,7 @@
 #include "plumbline/map/run_report.h"
 #include "plumbline/map/session_store.h"
 #include "plumbline/sfm/mapper.h"
+#include "plumbline/sfm/stored_session.h"
 #include "ros/photo_conversion.h"
 
 namespace plumb::ros_adapter {
@@ -93,12 +94,6 @@ class LiveMapper {
   using FinishRequest = std::shared_ptr<std::promise<void>>;
   using MappingItem = std::variant<AnalyzedPhoto, PollRequest, FinishRequest>;
   using StorageItem = std::function<void(SessionStore&)>;
-
-  struct StoredSession {
-    std::vector<MapperPhoto> photos;
-    std::vector<PhotoVerdict> verdicts;
-    MapDelta snapshot;
-  };
 
   class Listener;
 
