@@ -9,6 +9,7 @@ find_package(Threads REQUIRED)
 find_package(yaml-cpp REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
+find_package(embree 3 REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(SQLITE3 REQUIRED IMPORTED_TARGET sqlite3)
 pkg_check_modules(EXIV2 REQUIRED IMPORTED_TARGET exiv2)
@@ -44,6 +45,7 @@ plumb_module(image plumb_camera opencv_core opencv_imgproc opencv_imgcodecs open
 plumb_module(map plumb_image PkgConfig::SQLITE3 nlohmann_json::nlohmann_json)
 plumb_module(matching plumb_map opencv_core)
 plumb_module(sfm plumb_matching Ceres::ceres)
+plumb_module(simulation plumb_image embree)
 plumb_module(export plumb_sfm)
 
 # The command-line program; all but its main is a library, so that it can be tested.
@@ -70,7 +72,7 @@ function(plumb_module_test name)
   target_link_libraries(${name}_test PRIVATE ${ARGN} GTest::gmock GTest::gtest_main plumb_warnings)
   add_test(NAME ${name}_test COMMAND ${name}_test)
 endfunction()
-foreach(module common geometry camera image map matching sfm export tools)
+foreach(module common geometry camera image map matching sfm simulation export tools)
   plumb_module_test(${module} plumb_${module} plumb_camera)  # test/support makes scenes.
 endforeach()
 

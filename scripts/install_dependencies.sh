@@ -9,7 +9,7 @@ packages=(
   # Build.
   build-essential ccache cmake pkg-config
   # The core.
-  libceres-dev libcli11-dev libeigen3-dev libexiv2-dev libopencv-dev libsqlite3-dev
+  libceres-dev libcli11-dev libeigen3-dev libembree-dev libexiv2-dev libopencv-dev libsqlite3-dev
   libsuitesparse-dev libjpeg-dev libyaml-cpp-dev nlohmann-json3-dev
   # ROS 1.
   libcv-bridge-dev libdiagnostic-updater-dev libtf2-ros-dev python3-diagnostic-msgs python3-nav-msgs python3-rostest
