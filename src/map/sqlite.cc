@@ -13,7 +13,7 @@ constexpr int kBusyTimeout_ms = 10000;
 const char* CureFor(int code) {
   switch (code & 0xff) {
     case SQLITE_FULL:
-      return "the disk is full: free some space and start again with the same session";
+      return "free some space on this disk";
     case SQLITE_NOTADB:
     case SQLITE_CORRUPT:
       return "move the file away or choose another session folder";

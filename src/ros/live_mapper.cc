@@ -20,6 +20,11 @@ constexpr std::size_t kMaxMappingQueue = 2;
 
 constexpr std::chrono::milliseconds kStorageRetryEvery{1000};
 
+// What three tries did not write is not written soon.
+constexpr std::chrono::milliseconds kLasting{2500};
+
+constexpr std::chrono::milliseconds kFinishPollEvery{50};
+
 double SecondsSince(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
@@ -84,9 +89,8 @@ LiveMapper::LiveMapper(const MapperOptions& options,
                                                   [this](const StorageItem& item) { Store(item); });
   mapping_ = std::make_unique<Stage<MappingItem>>(
       kMaxMappingQueue, [this](MappingItem item) { Map(std::move(item)); });
-  analysis_ = std::make_unique<Stage<ArrivedPhoto>>(
-      static_cast<std::size_t>(max_queue),
-      [this](ArrivedPhoto photo) { Analyze(std::move(photo)); });
+  analysis_ = std::make_unique<Stage<AnalysisItem>>(
+      static_cast<std::size_t>(max_queue), [this](AnalysisItem item) { Analyze(std::move(item)); });
   TellStored();
   if (session.photos.empty()) return;
   output_.on_map_delta(session.snapshot);
@@ -124,7 +128,9 @@ bool LiveMapper::Offer(WirePhoto photo) {
   }
   auto bytes = std::make_shared<const std::vector<std::uint8_t>>(std::move(photo.bytes));
   photo.bytes.clear();
-  if (analysis_->TryPush({std::move(photo), std::move(bytes), Clock::now()})) return true;
+  if (analysis_->TryPush(ArrivedPhoto{std::move(photo), std::move(bytes), Clock::now()})) {
+    return true;
+  }
   const std::lock_guard<std::mutex> lock(mutex_);
   in_work_.erase(id);
   return false;
@@ -139,10 +145,33 @@ void LiveMapper::Poll() {
   if (mapping_->counters().queue_depth == 0) mapping_->TryPush(PollRequest());
 }
 
-void LiveMapper::Finish() {
-  const auto done = std::make_shared<std::promise<void>>();
+std::string LiveMapper::Finish() {
+  auto done = std::make_shared<std::promise<void>>();
   std::future<void> future = done->get_future();
-  if (mapping_->Push(done)) future.wait();
+  while (future.wait_for(kFinishPollEvery) != std::future_status::ready) {
+    const std::string trouble = LastingTrouble();
+    if (!trouble.empty()) return trouble;
+    if (done && analysis_->TryPush(done)) done.reset();  // Now the stages hold it alone.
+  }
+  try {
+    future.get();
+    return {};
+  } catch (const std::future_error&) {  // A stage threw the request away.
+    const std::string trouble = LastingTrouble();
+    return trouble.empty() ? "the mapper has ended" : trouble;
+  }
+}
+
+// Of the mapper, or of a session that was not written for a while.
+std::string LiveMapper::LastingTrouble() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  try {
+    if (failure_) std::rethrow_exception(failure_);
+  } catch (const std::exception& error) {
+    return std::string("the mapper has failed and is started again: ") + error.what();
+  }
+  if (storage_trouble_.empty() || Clock::now() - trouble_since_ < kLasting) return {};
+  return storage_trouble_;
 }
 
 void LiveMapper::RethrowFailure() {
@@ -150,8 +179,13 @@ void LiveMapper::RethrowFailure() {
   if (failure_) std::rethrow_exception(failure_);
 }
 
-void LiveMapper::Analyze(ArrivedPhoto arrived) {
+void LiveMapper::Analyze(AnalysisItem item) {
+  if (auto* request = std::get_if<FinishRequest>(&item)) {
+    mapping_->Push(std::move(*request));
+    return;
+  }
   if (is_stopping_) return;  // Without a verdict it comes again.
+  auto& arrived = std::get<ArrivedPhoto>(item);
   PhotoAnalysis analysis =
       AnalyzePhoto(options_.features, *arrived.bytes, camera_.width_px(), camera_.height_px());
   mapping_->Push(AnalyzedPhoto{std::move(arrived), std::move(analysis)});
@@ -203,19 +237,34 @@ void LiveMapper::MapPhoto(AnalyzedPhoto photo) {
 
 // A full disk must neither lose what is to be written nor stop the flight: tried until it works.
 void LiveMapper::Store(const StorageItem& item) {
-  for (bool has_failed = false;; has_failed = true) {
+  while (true) {
     try {
       item(store_);
-      if (has_failed) output_.on_storage_trouble("");
+      NoteStorageTrouble("");
       return;
     } catch (const std::runtime_error& error) {
-      output_.on_storage_trouble(error.what());
+      NoteStorageTrouble(error.what());
     } catch (...) {
       NoteFailure();
       throw;
     }
     if (is_stopping_) return;
     std::this_thread::sleep_for(kStorageRetryEvery);
+  }
+}
+
+void LiveMapper::NoteStorageTrouble(const std::string& trouble) {
+  std::size_t num_waiting = 0;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (storage_trouble_.empty()) trouble_since_ = Clock::now();
+    storage_trouble_ = trouble;
+    num_waiting = verdicts_.size() - stored_verdicts_.size();
+  }
+  const bool is_over = trouble.empty() && storage_->counters().queue_depth == 0;
+  if (!trouble.empty() || (has_told_trouble_ && is_over)) {
+    output_.on_storage_trouble(trouble, num_waiting);
+    has_told_trouble_ = !trouble.empty();
   }
 }
 

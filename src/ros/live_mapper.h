@@ -37,8 +37,9 @@ struct LiveMapperOutput {
   std::function<void(const MapDelta& delta)> on_map_delta;
   // The photos whose verdict is on disk, ascending; at the start and after each write.
   std::function<void(const std::vector<std::uint32_t>& sequences)> on_stored;
-  // What keeps the session from being written; empty once it is written again.
-  std::function<void(const std::string& trouble)> on_storage_trouble;
+  // What keeps the session from being written, at each try, and how many verdicts wait for that;
+  // empty once all of it is written.
+  std::function<void(const std::string& trouble, std::size_t num_waiting)> on_storage_trouble;
 };
 
 // Runs a Mapper in a flight: one thread finds the features of the photos to come, one maps, one
@@ -67,9 +68,10 @@ class LiveMapper {
   // Lets the mapper look at what its background has found, if it has nothing else to do.
   void Poll();
 
-  // Mapper::Finish after the photos offered so far, then SESSION/report.json; returns when all is
-  // on disk.
-  void Finish();
+  // Mapper::Finish after the photos offered so far, then SESSION/report.json. Empty once all is on
+  // disk; else, as soon as something lasting keeps it from that, what it is and the cure. A session
+  // that is not written is completed all the same once it can be.
+  std::string Finish();
 
   // Throws what stopped a thread, if anything did: the mapper is of no use then.
   void RethrowFailure();
@@ -92,17 +94,20 @@ class LiveMapper {
   };
   struct PollRequest {};
   using FinishRequest = std::shared_ptr<std::promise<void>>;
+  using AnalysisItem = std::variant<ArrivedPhoto, FinishRequest>;
   using MappingItem = std::variant<AnalyzedPhoto, PollRequest, FinishRequest>;
   using StorageItem = std::function<void(SessionStore&)>;
 
   class Listener;
 
   StoredSession ReadSession();
-  void Analyze(ArrivedPhoto arrived);
+  void Analyze(AnalysisItem item);
   void Map(MappingItem item);
   void MapPhoto(AnalyzedPhoto photo);
   RunReport MakeReport() const;
   void Store(const StorageItem& item);
+  void NoteStorageTrouble(const std::string& trouble);
+  std::string LastingTrouble() const;
   void StorePhoto(const AnalyzedPhoto& photo);
   void TellStored() const;
   void NoteFailure();
@@ -114,11 +119,14 @@ class LiveMapper {
   SessionStore store_;  // Of the storage thread, once it runs.
   std::set<PhotoId> stored_photos_;
   std::set<std::uint32_t> stored_verdicts_;
+  bool has_told_trouble_ = false;
 
   mutable std::mutex mutex_;  // Of what follows.
   std::set<PhotoId> in_work_;
   std::map<PhotoId, PhotoVerdict> verdicts_;
   std::exception_ptr failure_;
+  std::string storage_trouble_;  // Of the item that is being written.
+  Clock::time_point trouble_since_;
 
   std::atomic<bool> is_stopping_{false};
 
@@ -131,7 +139,7 @@ class LiveMapper {
   // In the order of their ends: a stage must outlive the one that feeds it.
   std::unique_ptr<Stage<StorageItem>> storage_;
   std::unique_ptr<Stage<MappingItem>> mapping_;
-  std::unique_ptr<Stage<ArrivedPhoto>> analysis_;
+  std::unique_ptr<Stage<AnalysisItem>> analysis_;
 };
 
 }  // namespace plumb::ros_adapter

@@ -21,6 +21,28 @@ constexpr double kTimerPeriod_s = 0.5;
 constexpr std::uint32_t kPhotoQueue = 4;
 constexpr std::uint32_t kVerdictQueue = 1000;
 
+double SteadySeconds() { return ros::SteadyTime::now().toSec(); }
+
+std::string NotSaved(const std::string& trouble) {
+  return "the session is not saved: " + trouble + ". Nothing is lost, it goes on by itself";
+}
+
+void LogVerdict(const PhotoVerdict& verdict) {
+  if (verdict.status == VerdictStatus::kRefused) {
+    ROS_WARN("%s: refused, %s (%.2f s): %s",
+             verdict.name.c_str(),
+             ToString(verdict.reason),
+             verdict.seconds.verdict_s,
+             verdict.hint.c_str());
+    return;
+  }
+  ROS_INFO("%s: %s (%.2f s) %s",
+           verdict.name.c_str(),
+           ToString(verdict.status),
+           verdict.seconds.verdict_s,
+           verdict.hint.c_str());
+}
+
 }  // namespace
 
 MapperRos::MapperRos(const ros::NodeHandle& handle, const MapperRosOptions& options)
@@ -61,6 +83,10 @@ void MapperRos::Start(const Camera& camera) {
   const std::lock_guard<std::mutex> lock(mutex_);
   for (const auto& [photo, verdict] : live->verdicts()) status_of_photo_[photo] = verdict.status;
   live_ = std::move(live);
+  if (status_of_photo_.empty()) return;
+  ROS_INFO("going on after %zu photos (%d accepted)",
+           status_of_photo_.size(),
+           CountPhotos().num_accepted);
 }
 
 LiveMapperOutput MapperRos::MakeOutput() {
@@ -72,12 +98,20 @@ LiveMapperOutput MapperRos::MakeOutput() {
   output.on_stored = [this](const std::vector<std::uint32_t>& sequences) {
     PublishStored(sequences);
   };
-  output.on_storage_trouble = [this](const std::string& trouble) {
-    if (!trouble.empty()) ROS_ERROR_THROTTLE(10.0, "the session is not saved: %s", trouble.c_str());
-    const std::lock_guard<std::mutex> lock(mutex_);
-    storage_trouble_ = trouble;
+  output.on_storage_trouble = [this](const std::string& trouble, std::size_t num_waiting) {
+    NoteStorageTrouble(trouble, num_waiting);
   };
   return output;
+}
+
+void MapperRos::NoteStorageTrouble(const std::string& trouble, std::size_t num_waiting) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (trouble.empty()) {
+    const std::size_t num_waited = storage_trouble_.Clear().value_or(0);
+    ROS_INFO("the session is saved again, going on: %zu photos were waiting", num_waited);
+  } else if (storage_trouble_.Set(NotSaved(trouble), num_waiting, SteadySeconds())) {
+    ROS_ERROR("%s", storage_trouble_.text().c_str());
+  }
 }
 
 void MapperRos::OnPhoto(const plumbline::Photo& msg) {
@@ -127,14 +161,30 @@ bool MapperRos::OnFinish(std_srvs::Trigger::Request&, std_srvs::Trigger::Respons
     const std::lock_guard<std::mutex> lock(mutex_);
     live = live_.get();
   }
-  if (live != nullptr) live->Finish();
+  const std::string trouble = live != nullptr ? live->Finish() : ReportNoPhotos();
   const std::lock_guard<std::mutex> lock(mutex_);
   const PhotoCounts counts = CountPhotos();
-  response.success = 1;
-  response.message = std::to_string(counts.num_accepted) + " accepted, " +
-                     std::to_string(counts.num_waiting) + " waiting, " +
-                     std::to_string(counts.num_refused) + " refused";
+  response.success = trouble.empty();
+  response.message = trouble.empty() ? std::to_string(counts.num_accepted) + " accepted, " +
+                                           std::to_string(counts.num_waiting) + " waiting, " +
+                                           std::to_string(counts.num_refused) + " refused"
+                                     : NotSaved(trouble) + "; then call finish again";
   return true;
+}
+
+// Without a photo there is no camera, and so no session yet to report on.
+std::string MapperRos::ReportNoPhotos() const {
+  RunReport report;
+  report.wall_s = (ros::WallTime::now() - ros::WallTime(started_.toSec())).toSec();
+  report.usage = CurrentProcessUsage();
+  report.options = OptionsToJson(options_.mapper);
+  try {
+    std::filesystem::create_directories(options_.session_folder);
+    WriteRunReport(report, options_.session_folder + "/report.json");
+    return {};
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
 }
 
 // The verdict goes out before anything else is done about it.
@@ -147,12 +197,7 @@ void MapperRos::PublishVerdict(const PhotoVerdict& verdict, const PhotoBytes& by
     counts = CountPhotos();
     if (bytes) latency_.Add(verdict.seconds.verdict_s);
   }
-  ROS_INFO("%s: %s %s (%.2f s) %s",
-           verdict.name.c_str(),
-           ToString(verdict.status),
-           verdict.reason == RefusalReason::kNone ? "" : ToString(verdict.reason),
-           verdict.seconds.verdict_s,
-           verdict.hint.c_str());
+  LogVerdict(verdict);
   if (bytes) publisher_->OnVerdict(verdict, bytes, counts);
 }
 
@@ -177,8 +222,8 @@ PhotoCounts MapperRos::CountPhotos() const {
 void MapperRos::Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!storage_trouble_.empty()) {
-    status.summary(DiagnosticStatus::ERROR, "the session is not saved: " + storage_trouble_);
+  if (!storage_trouble_.text().empty()) {
+    status.summary(DiagnosticStatus::ERROR, storage_trouble_.text());
   } else if (!live_) {
     status.summary(DiagnosticStatus::OK, "no photo yet");
   } else {

@@ -20,6 +20,7 @@
 #include "ros/live_mapper.h"
 #include "ros/map_publisher.h"
 #include "ros/mapper_ros_options.h"
+#include "ros/trouble.h"
 
 namespace plumb::ros_adapter {
 
@@ -41,9 +42,11 @@ class MapperRos {
   void OnTimer();
 
   bool OnFinish(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  std::string ReportNoPhotos() const;
   void RefuseOtherCamera(const WirePhoto& photo);
   void PublishVerdict(const PhotoVerdict& verdict, const PhotoBytes& bytes);
   void PublishStored(const std::vector<std::uint32_t>& sequences);
+  void NoteStorageTrouble(const std::string& trouble, std::size_t num_waiting);
   PhotoCounts CountPhotos() const;
   void Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
@@ -60,7 +63,7 @@ class MapperRos {
   std::map<PhotoId, VerdictStatus> status_of_photo_;
   Latency latency_;
   std::size_t num_dropped_ = 0;
-  std::string storage_trouble_;
+  Trouble storage_trouble_;
 
   std::unique_ptr<MapPublisher> publisher_;
   std::unique_ptr<LiveMapper> live_;
