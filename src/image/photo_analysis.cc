@@ -14,6 +14,7 @@
 #include "plumbline/common/stopwatch.h"
 #include "plumbline/image/content_hash.h"
 #include "plumbline/image/photo_metadata.h"
+#include "plumbline/image/photo_name.h"
 
 namespace plumb {
 namespace {
@@ -49,9 +50,10 @@ bool CheckHeader(const std::vector<std::uint8_t>& bytes,
   }
   const PhotoSize size = {analysis->metadata.width_px, analysis->metadata.height_px};
   if (size.width_px <= 0 || size.height_px <= 0) {
-    return Refuse(PhotoStatus::kUndecodable,
-                  "the file is no photo, or of a kind that is not read; JPEG, PNG and TIFF are",
-                  analysis);
+    return Refuse(
+        PhotoStatus::kUndecodable,
+        std::string("the file is no photo, or of a kind that is not read; ") + kPhotoKinds + " are",
+        analysis);
   }
   if (static_cast<double>(size.width_px) * size.height_px > kMaxPixels) {
     return Refuse(PhotoStatus::kUndecodable,

@@ -8,8 +8,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cerrno>
 #include <climits>
 #include <cstring>
@@ -18,7 +16,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "plumbline/common/atomic_file.h"
+#include "plumbline/image/photo_name.h"
 
 namespace plumb::ros_adapter {
 namespace {
@@ -33,14 +31,6 @@ constexpr std::chrono::milliseconds kRetryEvery{50};
 
 // Cameras may pad a JPEG after its end marker.
 constexpr std::streamoff kMaxPadding = 65536;
-
-std::string LowerExtension(const std::string& name) {
-  std::string extension = fs::path(name).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) {
-    return static_cast<char>(std::tolower(c));
-  });
-  return extension;
-}
 
 enum class End { kMissing, kPadded, kExact, kNotMarked };
 
@@ -62,14 +52,6 @@ End FindEnd(const std::string& path) {
 }
 
 }  // namespace
-
-bool IsPhotoName(const std::string& name) {
-  static constexpr std::array<const char*, 6> kExtensions = {
-      ".jpg", ".jpeg", ".png", ".tif", ".tiff", ".bmp"};
-  if (name.empty() || name.front() == '.' || IsTemporaryFileName(name)) return false;
-  const std::string extension = LowerExtension(name);
-  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
-}
 
 FolderWatcher::FolderWatcher(const std::string& folder, std::chrono::milliseconds untouched_for)
     : folder_(folder), untouched_for_(untouched_for) {

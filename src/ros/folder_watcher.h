@@ -10,12 +10,8 @@
 
 namespace plumb::ros_adapter {
 
-// Whether a name in a watched folder is a photo's: jpg, jpeg, png, tif, tiff or bmp in any case,
-// not hidden, not a temporary file.
-bool IsPhotoName(const std::string& name);
-
-// Finds the photos that appear in a folder, each once it is complete: closed by its writer or
-// renamed into place (inotify) and, if a JPEG, with its end marker; a file that cannot be
+// Finds the photos (IsPhotoName) that appear in a folder, each once it is complete: closed by its
+// writer or renamed into place (inotify) and, if a JPEG, with its end marker; a file that cannot be
 // told complete (a network folder, a cut JPEG) once it was not touched for a while. A photo
 // that is changed later counts as a new one. Not thread-safe.
 class FolderWatcher {

@@ -25,20 +25,6 @@ constexpr std::chrono::milliseconds kLong{60'000};
 constexpr std::chrono::milliseconds kDeadline{20'000};
 constexpr std::chrono::milliseconds kNow{0};
 
-TEST(IsPhotoName, IgnoresHiddenTemporaryAndOtherFiles) {
-  EXPECT_TRUE(IsPhotoName("DSC_0001.JPG"));
-  EXPECT_TRUE(IsPhotoName("a.b.jpeg"));
-  EXPECT_TRUE(IsPhotoName("x.tiff"));
-  EXPECT_FALSE(IsPhotoName(".DSC_0001.JPG"));
-  EXPECT_FALSE(IsPhotoName(".DSC_0001.JPG.xZ9a"));
-  EXPECT_FALSE(IsPhotoName("DSC_0001.JPG.part"));
-  EXPECT_FALSE(IsPhotoName("DSC_0001.JPG~"));
-  EXPECT_FALSE(IsPhotoName("DSC_0001.DNG"));
-  EXPECT_FALSE(IsPhotoName("notes.txt"));
-  EXPECT_FALSE(IsPhotoName("jpg"));
-  EXPECT_FALSE(IsPhotoName(""));
-}
-
 TEST(FolderWatcher, FindsWhatLiesThereByNameWhateverTheOrderOfWriting) {
   const TemporaryFolder folder;
   for (const char* name : {"c.jpg", "a.jpg", "b.jpg"}) folder.Write(name, kJpeg);
