@@ -141,6 +141,11 @@ void Map::MergeLandmarks(LandmarkId kept, LandmarkId gone) {
   }
 }
 
+void Map::SetLens(const LensParameters<double>& lens) {
+  lens_ = lens;
+  has_new_lens_ = true;
+}
+
 void Map::Attach(LandmarkId id, const Observation& observation) {
   View& view = MutableView(observation.photo);
   view.landmark_of_feature[observation.feature_idx] = id;

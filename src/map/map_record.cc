@@ -24,7 +24,7 @@ ObservationState Map::StateOf(const Observation& observation, LandmarkId id) con
 }
 
 std::optional<MapDelta> Map::TakeDelta() {
-  const bool has_changed = lens_change_ || !changed_views_.empty() ||
+  const bool has_changed = has_new_lens_ || !changed_views_.empty() ||
                            !removed_known_views_.empty() || !changed_landmarks_.empty() ||
                            !removed_known_landmarks_.empty() || !added_observations_.empty() ||
                            !removed_observations_.empty();
@@ -32,7 +32,7 @@ std::optional<MapDelta> Map::TakeDelta() {
 
   MapDelta delta;
   delta.sequence = ++last_sequence_;
-  delta.lens = lens_change_;
+  if (has_new_lens_) delta.lens = lens_;
   for (const auto& [key, id] : removed_observations_) {
     const bool goes_with_owner = !HasLandmark(id) || removed_known_views_.count(key.first) != 0;
     if (goes_with_owner) continue;
@@ -50,7 +50,7 @@ std::optional<MapDelta> Map::TakeDelta() {
 }
 
 void Map::MarkAllKnown() {
-  lens_change_.reset();
+  has_new_lens_ = false;
   changed_views_.clear();
   removed_known_views_.clear();
   known_views_.clear();
@@ -66,6 +66,7 @@ MapDelta Map::Snapshot() const {
   MapDelta snapshot;
   snapshot.sequence = last_sequence_;
   snapshot.is_snapshot = true;
+  snapshot.lens = lens_;
   for (const auto& [photo, view] : views_) snapshot.views_set.push_back(StateOf(photo));
   for (const LandmarkId id : LandmarkIds()) {
     snapshot.landmarks_set.push_back(StateOf(id));
@@ -79,6 +80,8 @@ MapDelta Map::Snapshot() const {
 Map Map::SuccessorOf(const Map& other) {
   Map map;
   map.last_sequence_ = other.last_sequence_;
+  map.lens_ = other.lens_;
+  map.has_new_lens_ = other.has_new_lens_;
   map.landmarks_.resize(other.landmarks_.size());
   map.known_views_ = other.known_views_;
   map.removed_known_views_ = other.known_views_;
@@ -125,6 +128,7 @@ Map Map::FromSnapshot(const MapDelta& snapshot,
       refuse("landmark " + std::to_string(id.value) + " has fewer than two observations");
     }
   }
+  map.lens_ = snapshot.lens;
   map.last_sequence_ = snapshot.sequence;
   map.MarkAllKnown();
   return map;

@@ -278,5 +278,25 @@ TEST(Map, RefusesASecondObservationInOneView) {
   EXPECT_THROW(map.AddObservation(id, {PhotoId{7}, 3}), std::logic_error);
 }
 
+TEST(Map, TheRefinedLensIsInOneDeltaAndInEverySnapshot) {
+  const LensParameters<double> lens = {600, 601, 320, 240};
+  Map map = MakeMapWithViews(2);
+  EXPECT_FALSE(map.Snapshot().lens);
+  map.SetLens(lens);
+  EXPECT_EQ(map.Snapshot().lens, lens);
+  EXPECT_EQ(Map::SuccessorOf(map).TakeDelta()->lens, lens);  // Not said yet.
+  EXPECT_EQ(map.TakeDelta()->lens, lens);
+  EXPECT_FALSE(map.TakeDelta());
+  EXPECT_EQ(map.Snapshot().lens, lens);  // A late listener hears it too.
+
+  Map successor = Map::SuccessorOf(map);
+  EXPECT_FALSE(successor.TakeDelta()->lens);
+  EXPECT_EQ(successor.Snapshot().lens, lens);
+  Map restored =
+      Map::FromSnapshot(map.Snapshot(), {{{0}, MakeFeatures(0)}, {{1}, MakeFeatures(1)}});
+  EXPECT_EQ(restored.Snapshot().lens, lens);
+  EXPECT_FALSE(restored.TakeDelta());
+}
+
 }  // namespace
 }  // namespace plumb

@@ -82,7 +82,7 @@ class Map {
   void MergeLandmarks(LandmarkId kept, LandmarkId gone);
 
   // Records that the shared lens was refined.
-  void SetLens(const LensParameters<double>& lens) { lens_change_ = lens; }
+  void SetLens(const LensParameters<double>& lens);
 
   // All changes since the last call, numbered; nothing if there were none.
   std::optional<MapDelta> TakeDelta();
@@ -90,8 +90,8 @@ class Map {
   // The whole map as one delta, under the number of the last one taken.
   MapDelta Snapshot() const;
 
-  // An empty map that goes on numbering deltas and ids after `other`'s, and
-  // records the removal of everything in it.
+  // An empty map that goes on numbering deltas and ids after `other`'s, records the removal of
+  // everything in it and keeps its lens.
   static Map SuccessorOf(const Map& other);
 
   // Rebuilds a map from a snapshot; `features` holds those of each of its views. Throws
@@ -115,10 +115,11 @@ class Map {
   std::vector<std::optional<Landmark>> landmarks_;  // By id; empty where removed.
   std::size_t num_landmarks_ = 0;
   std::size_t num_observations_ = 0;
+  std::optional<LensParameters<double>> lens_;  // If it was refined.
 
   // Changes since the last delta. "Known" ids are those the last delta left behind.
   std::uint32_t last_sequence_ = 0;
-  std::optional<LensParameters<double>> lens_change_;
+  bool has_new_lens_ = false;
   std::set<PhotoId> changed_views_;
   std::set<PhotoId> removed_known_views_;
   std::set<PhotoId> known_views_;
