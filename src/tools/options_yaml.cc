@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/options_yaml.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace plumb::tools {
@@ -30,6 +31,16 @@ void ReadScalar(const YAML::Node& node,
   Fail(path, "must be " + wanted + ", but is " + found + "; correct this value");
 }
 
+// A parameter's name with dots between its groups, without what ROS sets before it: the private
+// '~', the namespace and name of the node, and the group that holds all of MapperOptions.
+std::string WithDots(std::string name) {
+  std::replace(name.begin(), name.end(), '/', '.');
+  for (const std::string prefix : {"~", ".", "plumbline.", "mapper.", "mapper."}) {
+    if (name.rfind(prefix, 0) == 0) name.erase(0, prefix.size());
+  }
+  return name;
+}
+
 }  // namespace
 
 YAML::Node ParseYaml(const std::string& text, const std::string& source) {
@@ -48,7 +59,7 @@ YAML::Node ParseSetting(const std::string& setting) {
                              "\" is no setting; use KEY=VALUE, e.g. bundle.num_threads=2");
   }
   YAML::Node node = ParseYaml(setting.substr(equals + 1), "--set " + setting);
-  std::string key = setting.substr(0, equals);
+  std::string key = WithDots(setting.substr(0, equals));
   for (std::size_t dot = key.rfind('.'); !key.empty(); dot = key.rfind('.')) {
     YAML::Node parent(YAML::NodeType::Map);
     parent[dot == std::string::npos ? key : key.substr(dot + 1)] = node;

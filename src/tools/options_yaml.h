@@ -16,7 +16,8 @@ namespace plumb::tools {
 // Parses `text`, which may be empty. `source` names it in errors.
 YAML::Node ParseYaml(const std::string& text, const std::string& source);
 
-// One setting KEY=VALUE as YAML, e.g. "bundle.num_threads=2".
+// One setting KEY=VALUE as YAML, e.g. "bundle.num_threads=2", or as docs/parameters.md and ROS
+// write it, "mapper/bundle/num_threads=2".
 YAML::Node ParseSetting(const std::string& setting);
 
 // Where a field stands.

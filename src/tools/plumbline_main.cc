@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "tools/commands.h"
+#include "tools/usage_error.h"
 
 int main(int argc, char** argv) {
   using namespace plumb::tools;
@@ -19,7 +20,7 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help and --version.
-    std::cerr << "plumbline: " << error.what() << "; see plumbline --help\n";
+    std::cerr << "plumbline: " << DescribeUsageError(app, error) << '\n';
     return kWrongUsage;
   } catch (const std::exception& error) {
     std::cerr << "plumbline: " << error.what() << '\n';

@@ -142,13 +142,16 @@ void WriteResults(const SessionStore& store,
 
 }  // namespace
 
+// The file may have the mapper node's group around the options, as config/mapper.yaml does.
 MapperOptions ReadMapperOptions(const ReconstructArguments& arguments) {
   MapperOptions options;
   std::string source = "the default options";
   if (!arguments.options.empty()) {
     source = arguments.options;
     const std::vector<std::uint8_t> bytes = ReadFileBytes(source);
-    ReadValue(ParseYaml({bytes.begin(), bytes.end()}, source), {source, ""}, &options);
+    const YAML::Node root = ParseYaml({bytes.begin(), bytes.end()}, source);
+    const bool is_of_node = root.IsMap() && root.size() == 1 && root["mapper"].IsDefined();
+    ReadValue(is_of_node ? root["mapper"] : root, {source, ""}, &options);
   }
   for (const std::string& setting : arguments.settings) {
     source = "--set " + setting;

@@ -82,5 +82,19 @@ TEST(ParseSetting, SetsANestedField) {
                std::runtime_error);
 }
 
+TEST(ParseSetting, TakesNamesAsRosWritesThem) {
+  for (const char* name : {"localizer/max_error_px",
+                           "mapper/localizer/max_error_px",
+                           "~mapper/localizer/max_error_px",
+                           "/plumbline/mapper/mapper/localizer/max_error_px"}) {
+    MapperOptions options;
+    ReadValue(ParseSetting(std::string(name) + "=2.5"), {"--set", ""}, &options);
+    EXPECT_EQ(options.localizer.max_error_px, 2.5) << name;
+  }
+  MapperOptions options;
+  ReadValue(ParseSetting("retrieval/vocabulary_path=/data/tree"), {"--set", ""}, &options);
+  EXPECT_EQ(options.retrieval.vocabulary_path, "/data/tree");
+}
+
 }  // namespace
 }  // namespace plumb::tools
