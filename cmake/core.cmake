@@ -47,9 +47,10 @@ plumb_module(matching plumb_map opencv_core)
 plumb_module(sfm plumb_matching Ceres::ceres)
 plumb_module(simulation plumb_image embree)
 plumb_module(export plumb_sfm)
+plumb_module(evaluation plumb_export)
 
 # The command-line program; all but its main is a library, so that it can be tested.
-plumb_module(tools plumb_export yaml-cpp CLI11::CLI11)
+plumb_module(tools plumb_evaluation yaml-cpp CLI11::CLI11)
 file(STRINGS ${PROJECT_SOURCE_DIR}/package.xml version_line REGEX "<version>")
 string(REGEX REPLACE ".*<version>(.*)</version>.*" "\\1" PLUMBLINE_VERSION "${version_line}")
 add_executable(plumbline_tool ${PROJECT_SOURCE_DIR}/src/tools/plumbline_main.cc)
@@ -72,7 +73,7 @@ function(plumb_module_test name)
   target_link_libraries(${name}_test PRIVATE ${ARGN} GTest::gmock GTest::gtest_main plumb_warnings)
   add_test(NAME ${name}_test COMMAND ${name}_test)
 endfunction()
-foreach(module common geometry camera image map matching sfm simulation export tools)
+foreach(module common geometry camera image map matching sfm simulation export evaluation tools)
   plumb_module_test(${module} plumb_${module} plumb_camera)  # test/support makes scenes.
 endforeach()
 

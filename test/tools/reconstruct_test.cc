@@ -17,7 +17,7 @@
 #include <sstream>
 
 #include "plumbline/common/atomic_file.h"
-#include "plumbline/export/evaluation.h"
+#include "plumbline/evaluation/pose_evaluation.h"
 #include "plumbline/map/session_store.h"
 
 namespace plumb::tools {

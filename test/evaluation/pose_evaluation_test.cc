@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plumbline/export/evaluation.h"
+#include "plumbline/evaluation/pose_evaluation.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ Similarity3 MakeMapFromWorld() {
 
 TEST(EvaluatePoses, FindsNoErrorInATransformedTruth) {
   const std::vector<TruePose> truth = MakeTruth();
-  const Evaluation evaluation = EvaluatePoses(ViewsOf(truth, MakeMapFromWorld()), truth);
+  const PoseEvaluation evaluation = EvaluatePoses(ViewsOf(truth, MakeMapFromWorld()), truth);
   EXPECT_EQ(evaluation.num_truth, 5);
   EXPECT_EQ(evaluation.num_registered, 5);
   EXPECT_LT(evaluation.center_error_mm.max, 1e-9);
@@ -83,7 +83,7 @@ TEST(EvaluatePoses, MeasuresAKnownDisplacement) {
   const double tip_mm = 1e3 * std::abs(scale * (1.09 - mean_measured) + mean_true - 1.0);
   const double corner_mm =
       1e3 * std::hypot((scale - 1.0) * std::sqrt(2.0), scale * -mean_measured + mean_true);
-  const Evaluation evaluation = EvaluatePoses(ViewsOf(measured, MakeMapFromWorld()), truth);
+  const PoseEvaluation evaluation = EvaluatePoses(ViewsOf(measured, MakeMapFromWorld()), truth);
   EXPECT_NEAR(evaluation.photos[4].center_error_mm, tip_mm, 1e-6);
   EXPECT_NEAR(evaluation.photos[0].center_error_mm, corner_mm, 1e-6);
   EXPECT_NEAR(evaluation.center_error_mm.max, tip_mm, 1e-6);
@@ -97,7 +97,7 @@ TEST(EvaluatePoses, MeasuresAKnownTurnOfOneCamera) {
   measured[2].cam_from_world_rotation =
       Eigen::AngleAxisd(0.02, Eigen::Vector3d(1, 2, 3).normalized()) *
       truth[2].cam_from_world_rotation;
-  const Evaluation evaluation = EvaluatePoses(ViewsOf(measured, MakeMapFromWorld()), truth);
+  const PoseEvaluation evaluation = EvaluatePoses(ViewsOf(measured, MakeMapFromWorld()), truth);
   const double turn_deg = 0.02 * 180.0 / M_PI;
   EXPECT_NEAR(evaluation.photos[2].rotation_error_deg, turn_deg, 1e-6);
   EXPECT_NEAR(evaluation.rotation_error_deg.max, turn_deg, 1e-6);
@@ -112,7 +112,7 @@ TEST(EvaluatePoses, PairsByNameAndNamesWhatTheMapMissed) {
   views.erase(views.begin() + 1);
   views.push_back(views[0]);
   views.back().name = "extra.jpg";
-  const Evaluation evaluation = EvaluatePoses(views, truth);
+  const PoseEvaluation evaluation = EvaluatePoses(views, truth);
   EXPECT_EQ(evaluation.num_registered, 4);
   EXPECT_THAT(evaluation.missed, testing::ElementsAre("1.jpg"));
   EXPECT_LT(evaluation.center_error_mm.max, 1e-9);

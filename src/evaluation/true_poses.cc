@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "plumbline/evaluation/true_poses.h"
+
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -7,7 +9,6 @@
 #include <stdexcept>
 
 #include "plumbline/common/atomic_file.h"
-#include "plumbline/export/evaluation.h"
 
 namespace plumb {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plumbline/export/evaluation.h"
+#include "plumbline/evaluation/pose_evaluation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -83,8 +83,9 @@ PhotoError ErrorOf(const Similarity3& world_from_map, const Pair& pair) {
 
 }  // namespace
 
-Evaluation EvaluatePoses(const std::vector<ViewState>& views, const std::vector<TruePose>& truth) {
-  Evaluation evaluation;
+PoseEvaluation EvaluatePoses(const std::vector<ViewState>& views,
+                             const std::vector<TruePose>& truth) {
+  PoseEvaluation evaluation;
   const std::vector<Pair> pairs = PairUp(views, truth, &evaluation.missed);
   evaluation.num_truth = static_cast<int>(truth.size());
   evaluation.num_registered = static_cast<int>(pairs.size());
