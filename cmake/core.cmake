@@ -14,6 +14,7 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(SQLITE3 REQUIRED IMPORTED_TARGET sqlite3)
 pkg_check_modules(EXIV2 REQUIRED IMPORTED_TARGET exiv2)
 pkg_check_modules(LIBJPEG REQUIRED IMPORTED_TARGET libjpeg)
+pkg_check_modules(PROJ REQUIRED IMPORTED_TARGET proj)
 
 add_library(plumb_warnings INTERFACE)
 target_compile_options(plumb_warnings INTERFACE -Wall -Wextra -Wconversion)
@@ -45,7 +46,9 @@ plumb_module(image plumb_camera opencv_core opencv_imgproc opencv_imgcodecs open
 plumb_module(map plumb_image PkgConfig::SQLITE3 nlohmann_json::nlohmann_json)
 plumb_module(matching plumb_map opencv_core)
 plumb_module(sfm plumb_matching Ceres::ceres)
-plumb_module(simulation plumb_image embree)
+plumb_module(simulation plumb_image embree PkgConfig::PROJ)
+# A vectorised square root sets no errno.
+set_source_files_properties(src/simulation/develop.cc PROPERTIES COMPILE_OPTIONS -fno-math-errno)
 plumb_module(export plumb_sfm)
 plumb_module(evaluation plumb_export)
 
