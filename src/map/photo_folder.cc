@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plumbline/map/photo_folder.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
 
@@ -30,6 +32,15 @@ std::string Shortened(const std::string& name) {
 std::string Numbered(const std::string& name, int number) {
   const fs::path path(name);
   return path.stem().string() + '_' + std::to_string(number) + path.extension().string();
+}
+
+// "101MEDIA_a.jpg" for "DCIM/101MEDIA/a.jpg"; nothing if `name` has no folder.
+std::optional<std::string> WithFolder(std::string name) {
+  std::replace(name.begin(), name.end(), '\\', '/');
+  const fs::path path(name);
+  const std::string folder = path.parent_path().filename().string();
+  if (folder.empty() || folder[0] == '.') return std::nullopt;
+  return SafeFileName(folder + '_' + path.filename().string());
 }
 
 bool HoldsBytes(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
@@ -80,6 +91,7 @@ std::string PhotoFolder::ClaimName(const std::string& name,
   const std::string safe = SafeFileName(name);
   const std::lock_guard<std::mutex> lock(mutex_);
   std::string candidate = safe;
+  if (!IsFree(candidate, bytes, content)) candidate = WithFolder(name).value_or(safe);
   for (int number = 2; !IsFree(candidate, bytes, content); ++number) {
     candidate = Numbered(safe, number);
   }

@@ -52,14 +52,18 @@ void AddCheckCommand(CLI::App* app, ExitCode* exit_code) {
       "check", "Say of each photo of a folder whether it is usable, without a map");
   command->footer(
       "Prints one line of JSON a photo: whether it is usable and why not, size and blur [px], "
-      "number of features, wall and CPU seconds of its decoding and features.");
+      "number of features, wall and CPU seconds of its decoding and features. Other files are "
+      "named on standard error.");
   const auto arguments = std::make_shared<CheckArguments>();
-  command->add_option("--photos", arguments->photos, "Folder of photos")->required();
+  command->add_option("--photos", arguments->photos, "Folder of photos, with its sub-folders")
+      ->required();
   command->add_option("--camera", arguments->camera, "Lens: ROS camera_info YAML, lengths in px")
       ->required();
   command->callback([arguments, exit_code] {
     const Camera camera = ReadCameraYaml(arguments->camera);
-    for (const std::string& name : ListPhotos(arguments->photos)) {
+    const PhotoListing listing = ListPhotos(arguments->photos);
+    for (const std::string& line : Describe(listing)) std::cerr << line << '\n';
+    for (const std::string& name : listing.photos) {
       const Json photo = CheckPhoto(camera, arguments->photos, name);
       std::cout << photo.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
     }

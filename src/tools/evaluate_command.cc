@@ -7,6 +7,7 @@
 #include "plumbline/evaluation/pose_evaluation.h"
 #include "plumbline/map/session_store.h"
 #include "tools/commands.h"
+#include "tools/original_names.h"
 
 namespace plumb::tools {
 namespace {
@@ -46,7 +47,7 @@ void AddEvaluateCommand(CLI::App* app, ExitCode* exit_code) {
   command->footer(
       "Prints JSON: photos registered, mean, median and largest error of the camera centres [mm] "
       "and rotations [deg] after the similarity that fits the centres best, and those of each "
-      "photo.");
+      "photo. Photos are paired by the names they had where they came from.");
   const auto arguments = std::make_shared<EvaluateArguments>();
   command->add_option("--session", arguments->session, "Folder of the session")->required();
   command
@@ -58,7 +59,8 @@ void AddEvaluateCommand(CLI::App* app, ExitCode* exit_code) {
   command->callback([arguments, exit_code] {
     const std::vector<TruePose> truth = ReadTruePoses(arguments->truth);
     const SessionStore store = SessionStore::OpenExisting(arguments->session);
-    const PoseEvaluation evaluation = EvaluatePoses(store.Snapshot().views_set, truth);
+    const PoseEvaluation evaluation =
+        EvaluatePoses(WithOriginalNames(store.Snapshot().views_set, store.Photos()), truth);
     std::cout << ToJson(evaluation).dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
     *exit_code = kDone;
   });

@@ -3,12 +3,15 @@
 #include "tools/photo_list.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cstdint>
 #include <filesystem>
 #include <random>
 #include <stdexcept>
 #include <system_error>
+
+#include "plumbline/image/photo_name.h"
 
 namespace plumb::tools {
 namespace {
@@ -46,6 +49,59 @@ void Shuffle(std::uint64_t seed, std::vector<std::string>* names) {
     std::swap((*names)[i - 1], (*names)[random() % i]);
 }
 
+constexpr char kHidden[] = "hidden";
+
+// What a file that is no photo by its name is called in the listing.
+std::string KindOf(const fs::path& path) {
+  const std::string name = path.filename().string();
+  if (name[0] == '.') return kHidden;
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) {
+    return static_cast<char>(std::tolower(c));
+  });
+  return extension.empty() ? "without an extension" : extension;
+}
+
+// Lists `prefix` of `folder`: "" or "DCIM/" and the like. Throws std::runtime_error.
+void Collect(const fs::path& folder, const std::string& prefix, PhotoListing* listing) {
+  std::error_code error;
+  for (fs::directory_iterator entry(folder / prefix, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const fs::path& path = entry->path();
+    const std::string name = path.filename().string();
+    std::error_code unknown;  // A dangling link is no folder; reading it says what is wrong.
+    if (entry->is_directory(unknown)) {
+      const bool is_hidden = name[0] == '.';
+      const bool is_link = entry->is_symlink(unknown);
+      const bool is_session = fs::exists(path / "session.db", unknown);
+      if (!is_hidden && !is_link && !is_session) {
+        Collect(folder, prefix + name + '/', listing);
+      } else {
+        ++listing->skipped[is_hidden ? kHidden : is_link ? "linked folder" : "session"];
+      }
+    } else if (entry->is_other(unknown)) {
+      ++listing->skipped["no file (pipe or device)"];
+    } else if (IsPhotoName(name)) {
+      listing->photos.push_back(prefix + name);
+      if (!prefix.empty()) ++listing->photos_of_subfolder[prefix];
+    } else {
+      ++listing->skipped[KindOf(path)];
+    }
+  }
+  if (!error) return;
+  throw std::runtime_error((folder / prefix).string() + ": cannot read this folder: " +
+                           error.message() + "; name the folder that holds the photos");
+}
+
+// E.g. "2 .mp4, 1 hidden".
+std::string Counted(const std::map<std::string, int>& counts) {
+  std::string text;
+  for (const auto& [what, count] : counts) {
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + ' ' + what;
+  }
+  return text;
+}
+
 }  // namespace
 
 bool NaturallyLess(const std::string& a, const std::string& b) {
@@ -67,24 +123,30 @@ bool NaturallyLess(const std::string& a, const std::string& b) {
   return rest_a != rest_b ? rest_a < rest_b : a < b;  // 01 and 1 are equal numbers.
 }
 
-std::vector<std::string> ListPhotos(const std::string& folder) {
-  std::error_code error;
-  std::vector<std::string> names;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
-    std::error_code unknown;  // A dangling link is no folder; reading it says what is wrong.
-    if (name[0] != '.' && !entry->is_directory(unknown)) names.push_back(name);
+PhotoListing ListPhotos(const std::string& folder) {
+  PhotoListing listing;
+  Collect(folder, "", &listing);
+  if (listing.photos.empty()) {
+    const std::string found = listing.skipped.empty() ? "" : ", only " + Counted(listing.skipped);
+    throw std::runtime_error(folder + ": holds no photo (" + kPhotoKinds + " by their names)" +
+                             found + "; name the folder that holds the photos");
   }
-  if (error) {
-    throw std::runtime_error(folder + ": cannot read this folder: " + error.message() +
-                             "; name the folder that holds the photos");
+  std::sort(listing.photos.begin(), listing.photos.end(), NaturallyLess);
+  return listing;
+}
+
+std::vector<std::string> Describe(const PhotoListing& listing) {
+  std::vector<std::string> lines;
+  std::string subfolders;
+  for (const auto& [prefix, count] : listing.photos_of_subfolder) {
+    subfolders += (subfolders.empty() ? "" : ", ") + prefix + " (" + std::to_string(count) + ')';
   }
-  if (names.empty()) {
-    throw std::runtime_error(folder + ": holds no file; name the folder that holds the photos");
+  if (!subfolders.empty()) lines.push_back("photos in sub-folders: " + subfolders);
+  if (!listing.skipped.empty()) {
+    lines.push_back("skipped, no photos by their names (" + std::string(kPhotoKinds) +
+                    " are read): " + Counted(listing.skipped));
   }
-  std::sort(names.begin(), names.end(), NaturallyLess);
-  return names;
+  return lines;
 }
 
 void ApplyOrder(const std::string& order, std::vector<std::string>* names) {

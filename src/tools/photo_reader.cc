@@ -12,13 +12,19 @@
 namespace plumb::tools {
 namespace {
 
+namespace fs = std::filesystem;
+
 // No photo is as large: a film that lies among the photos must not fill the memory.
 constexpr std::uintmax_t kMaxPhotoBytes = std::uintmax_t{512} << 20;
 
 // Throws std::runtime_error.
 std::vector<std::uint8_t> ReadPhotoBytes(const std::string& path) {
   std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (fs::is_symlink(path, error) && !fs::exists(path, error)) {
+    throw std::runtime_error(path + ": is a link to " + fs::read_symlink(path, error).string() +
+                             ", which is not there; mount it, or put the photo in its place");
+  }
+  const std::uintmax_t size = fs::file_size(path, error);
   if (!error && size > kMaxPhotoBytes) {
     throw std::runtime_error(path + ": is larger than 512 MB, no photo is");
   }
@@ -38,6 +44,8 @@ std::optional<std::uint64_t> HashOfFile(const std::string& path) {
   }
 }
 
+std::string FileName(const std::string& path) { return fs::path(path).filename().string(); }
+
 }  // namespace
 
 KnownPhotos::KnownPhotos(SessionStore* store) {
@@ -45,12 +53,12 @@ KnownPhotos::KnownPhotos(SessionStore* store) {
     const std::optional<std::uint64_t> hash = photo.analysis
                                                   ? photo.analysis->content_hash
                                                   : HashOfFile(store->photos().PathOf(photo.name));
-    if (hash) photos_.insert({photo.source_name, *hash});
+    if (hash) photos_.insert({FileName(photo.source_name), *hash});
   }
 }
 
 bool KnownPhotos::Contains(const std::string& source_name, std::uint64_t content_hash) const {
-  return photos_.count({source_name, content_hash}) != 0;
+  return photos_.count({FileName(source_name), content_hash}) != 0;
 }
 
 PhotoReader::PhotoReader(const FeatureOptions& options,
@@ -76,23 +84,23 @@ ReadPhoto PhotoReader::Read(const PhotoTask& task) const {
   ReadPhoto photo;
   photo.task = task;
   std::vector<std::uint8_t> bytes;
-  std::string trouble;
   try {
     bytes = ReadPhotoBytes(task.path);
   } catch (const std::runtime_error& error) {
-    trouble = error.what();
+    photo.trouble = error.what();
+    if (!task.stored_id) return photo;
   }
   const std::uint64_t hash = HashOf(bytes);
   if (!task.stored_id && known_->Contains(task.source_name, hash)) {
     photo.is_known = true;
     return photo;
   }
-  photo.name = photos_->ClaimName(task.source_name, bytes);
-  if (trouble.empty()) {
+  photo.name = task.stored_id ? FileName(task.path) : photos_->ClaimName(task.source_name, bytes);
+  if (photo.trouble.empty()) {
     photo.analysis = AnalyzePhoto(options_, bytes, width_px_, height_px_);
   } else {
     photo.analysis.status = PhotoStatus::kUndecodable;
-    photo.analysis.detail = trouble;
+    photo.analysis.detail = photo.trouble;
     photo.analysis.content_hash = hash;
   }
   photo.bytes = std::make_shared<const std::vector<std::uint8_t>>(std::move(bytes));

@@ -22,7 +22,7 @@ namespace plumb::tools {
 // A file to take.
 struct PhotoTask {
   std::string path;
-  std::string source_name;
+  std::string source_name;           // With its sub-folders.
   std::optional<PhotoId> stored_id;  // If the session holds it already, unfinished.
 };
 
@@ -30,14 +30,15 @@ struct PhotoTask {
 struct ReadPhoto {
   PhotoTask task;
   bool is_known = false;  // The session has answered it; nothing else is filled in then.
+  std::string trouble;    // Why it could not be read; nothing else is filled in then.
   std::string name;       // In the session's photos/.
   std::shared_ptr<const std::vector<std::uint8_t>> bytes;
   PhotoAnalysis analysis;
   Stopwatch since_first_byte;
 };
 
-// Recognises the files that a session has taken already, by name and content. Thread-safe:
-// immutable.
+// Recognises the files that a session has taken already, by name without folders and content.
+// Thread-safe: immutable.
 class KnownPhotos {
  public:
   explicit KnownPhotos(SessionStore* store);
@@ -57,7 +58,7 @@ class PhotoReader {
               PhotoFolder* photos,
               const KnownPhotos* known);
 
-  // A file that cannot be read becomes an undecodable photo that says why.
+  // A file of the session that cannot be read becomes an undecodable photo that says why.
   std::future<ReadPhoto> Start(const PhotoTask& task);
 
  private:

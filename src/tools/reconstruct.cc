@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/reconstruct.h"
 
+#include <filesystem>
 #include <future>
 #include <iomanip>
 #include <map>
@@ -25,11 +26,37 @@
 namespace plumb::tools {
 namespace {
 
-std::vector<PhotoTask> FolderTasks(const ReconstructArguments& arguments) {
-  std::vector<std::string> names = ListPhotos(arguments.photos);
-  ApplyOrder(arguments.order, &names);
+namespace fs = std::filesystem;
+
+fs::path Resolved(const std::string& folder) {
+  const fs::path path = fs::weakly_canonical(folder);
+  return path.has_filename() ? path : path.parent_path();
+}
+
+// The session keeps files of its own, and copies of the photos in photos/: neither may be taken for
+// the folder of the originals.
+void CheckFoldersAreApart(const ReconstructArguments& arguments) {
+  const fs::path session = Resolved(arguments.session);
+  fs::path folder = Resolved(arguments.photos);
+  if (folder == session) {
+    throw std::runtime_error("--session " + arguments.session +
+                             ": is the folder of the photos; name a folder of its own, new or one "
+                             "to go on with");
+  }
+  for (; folder != folder.parent_path(); folder = folder.parent_path()) {
+    if (folder != session) continue;
+    throw std::runtime_error("--photos " + arguments.photos + ": lies inside the session " +
+                             arguments.session +
+                             "; name the folder the photos came from, or another session");
+  }
+}
+
+std::vector<PhotoTask> FolderTasks(const ReconstructArguments& arguments, Console* console) {
+  PhotoListing listing = ListPhotos(arguments.photos);
+  ApplyOrder(arguments.order, &listing.photos);
+  for (const std::string& line : Describe(listing)) console->PrintLine(line);
   std::vector<PhotoTask> tasks;
-  for (const std::string& name : names) {
+  for (const std::string& name : listing.photos) {
     tasks.push_back({arguments.photos + '/' + name, name, std::nullopt});
   }
   return tasks;
@@ -73,6 +100,11 @@ class Feeder {
         ++num_known_;
         continue;
       }
+      if (!photo.trouble.empty() && !photo.task.stored_id) {
+        unread_.push_back(photo.trouble);
+        console_->PrintLine(photo.task.source_name + ": not taken: " + photo.trouble);
+        continue;
+      }
       const PhotoId id = Add(std::move(photo));
       const double cpu_before_s = std::exchange(cpu_s, CurrentProcessUsage().cpu_s);
       turns_[id] = {turn.Restart(), cpu_s - cpu_before_s};
@@ -85,6 +117,7 @@ class Feeder {
   void Close() { recorder_.Close(); }
 
   std::size_t num_known() const { return num_known_; }
+  const std::vector<std::string>& unread() const { return unread_; }
   const std::map<PhotoId, PhotoTurn>& turns() const { return turns_; }
   const Map& map() const { return mapper_.map(); }
 
@@ -110,6 +143,7 @@ class Feeder {
   PhotoId next_id_;
   std::map<PhotoId, PhotoTurn> turns_;
   std::size_t num_known_ = 0;  // Files that the session had answered already.
+  std::vector<std::string> unread_;
   SessionRecorder recorder_;
   Mapper mapper_;
 };
@@ -172,7 +206,8 @@ ExitCode Reconstruct(const ReconstructArguments& arguments,
   // All that can be wrong with the arguments, before a session is made.
   const Camera camera = ReadCameraYaml(arguments.camera);
   const MapperOptions options = ReadMapperOptions(arguments);
-  const std::vector<PhotoTask> folder_tasks = FolderTasks(arguments);
+  CheckFoldersAreApart(arguments);
+  const std::vector<PhotoTask> folder_tasks = FolderTasks(arguments, console);
 
   SessionStore store(arguments.session, camera);
   StoredSession session = ReadStoredSession(store);
@@ -189,10 +224,15 @@ ExitCode Reconstruct(const ReconstructArguments& arguments,
   if (feeder.num_known() > 0) {
     console->PrintLine(std::to_string(feeder.num_known()) + " files were in the session already");
   }
+  if (!feeder.unread().empty()) {
+    console->PrintLine(std::to_string(feeder.unread().size()) +
+                       " files could not be read, see above; run again once they can be");
+  }
 
   RunReport report;
   report.verdicts = store.AllVerdicts();
   report.turns = feeder.turns();
+  report.unread = feeder.unread();
   report.num_landmarks = feeder.map().num_landmarks();
   report.num_observations = feeder.map().num_observations();
   report.interrupted = !is_complete;

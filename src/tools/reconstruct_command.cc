@@ -31,10 +31,12 @@ void AddReconstructCommand(CLI::App* app, ExitCode* exit_code) {
       "Prints a line for each verdict: name, verdict, reason and hint, or inliers, matches and "
       "median reprojection error [px]; seconds from the first byte to the verdict.\n"
       "Writes SESSION/{photos,session.db,report.json,export}. A session that was cut off goes on "
-      "where it was: photos it has answered are skipped by name and content.\n" +
+      "where it was: photos it has answered are skipped by name and content. What is no photo by "
+      "its name is skipped as well, and said.\n" +
       std::string(kExitCodes));
   const auto arguments = std::make_shared<ReconstructArguments>();
-  command->add_option("--photos", arguments->photos, "Folder of photos")->required();
+  command->add_option("--photos", arguments->photos, "Folder of photos, with its sub-folders")
+      ->required();
   command->add_option("--camera", arguments->camera, "Lens: ROS camera_info YAML, lengths in px")
       ->required();
   command->add_option("--session", arguments->session, "Folder of the session, new or old")

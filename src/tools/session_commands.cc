@@ -25,7 +25,8 @@ void AddExportCommand(CLI::App* app, ExitCode* exit_code) {
       "map's frame and unit of length.");
   const auto arguments = std::make_shared<SessionArguments>();
   command->add_option("--session", arguments->session, "Folder of the session")->required();
-  command->add_option("--to", arguments->path, "Folder to write to (default: SESSION/export)");
+  command->add_option(
+      "--to,--output", arguments->path, "Folder to write to (default: SESSION/export)");
   command->callback([arguments, exit_code] {
     const SessionStore store = SessionStore::OpenExisting(arguments->session);
     const std::string folder =

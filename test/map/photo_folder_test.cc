@@ -67,6 +67,16 @@ TEST_F(PhotoFolderTest, NumbersADifferentPhotoOfTheSameNameAndFindsBothAgain) {
   EXPECT_EQ(ReadFileBytes(folder.PathOf("a_2.jpg")), second);
 }
 
+TEST_F(PhotoFolderTest, TellsPhotosOfTheSameNameApartByTheirFolder) {
+  PhotoFolder folder(folder_);
+  folder.Prepare();
+  EXPECT_EQ(folder.Save("DCIM/100MEDIA/a.jpg", MakeBytes(10, 1)), "a.jpg");
+  EXPECT_EQ(folder.Save("DCIM/101MEDIA/a.jpg", MakeBytes(10, 2)), "101MEDIA_a.jpg");
+  EXPECT_EQ(folder.Save("DCIM\\101MEDIA\\a.jpg", MakeBytes(10, 3)), "a_2.jpg");
+  EXPECT_EQ(folder.Save("../a.jpg", MakeBytes(10, 4)), "a_3.jpg");
+  EXPECT_EQ(folder.Save("DCIM/101MEDIA/a.jpg", MakeBytes(10, 2)), "101MEDIA_a.jpg");
+}
+
 TEST_F(PhotoFolderTest, AClaimedNameIsNotGivenToOtherBytesBeforeItIsWritten) {
   PhotoFolder folder(folder_);
   folder.Prepare();

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -72,29 +73,76 @@ TEST(ApplyOrder, RefusesWhatIsNoOrder) {
   }
 }
 
-TEST(ListPhotos, GivesFilesInNaturalOrderWithoutFoldersAndHiddenFiles) {
-  std::string pattern = testing::TempDir() + "photo_list_XXXXXX";
-  const std::filesystem::path folder = ::mkdtemp(pattern.data());
-  for (const char* name : {"p10.jpg", "p9.jpg", ".hidden.jpg", "notes.txt"}) {
-    std::ofstream(folder / name) << "x";
+class ListPhotosTest : public testing::Test {
+ protected:
+  ListPhotosTest() {
+    std::string pattern = testing::TempDir() + "photo_list_XXXXXX";
+    folder_ = ::mkdtemp(pattern.data());
   }
-  std::filesystem::create_directory(folder / "p1");
-  EXPECT_THAT(ListPhotos(folder.string()), ElementsAre("notes.txt", "p9.jpg", "p10.jpg"));
-  std::filesystem::remove_all(folder);
+  ~ListPhotosTest() override { std::filesystem::remove_all(folder_); }
+
+  void Write(const std::string& name) {
+    std::filesystem::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name) << "x";
+  }
+  PhotoListing List() const { return ListPhotos(folder_.string()); }
+  std::string ErrorOf(const std::filesystem::path& folder) const {
+    try {
+      ListPhotos(folder.string());
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return {};
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(ListPhotosTest, GivesPhotosInNaturalOrderAndSaysWhatItSkipped) {
+  for (const char* name :
+       {"p10.JPG", "p9.jpg", ".DS_Store", "._p9.jpg", "a.MP4", "b.mp4", "x.SRT", "README"}) {
+    Write(name);
+  }
+  const PhotoListing listing = List();
+  EXPECT_THAT(listing.photos, ElementsAre("p9.jpg", "p10.JPG"));
+  EXPECT_THAT(Describe(listing),
+              ElementsAre("skipped, no photos by their names (JPEG, PNG, TIFF and BMP are "
+                          "read): 2 .mp4, 1 .srt, 2 hidden, 1 without an extension"));
 }
 
-TEST(ListPhotos, NamesAnEmptyOrAbsentFolder) {
-  std::string pattern = testing::TempDir() + "photo_list_XXXXXX";
-  const std::filesystem::path folder = ::mkdtemp(pattern.data());
-  for (const std::filesystem::path& path : {folder, folder / "absent"}) {
-    try {
-      ListPhotos(path.string());
-      ADD_FAILURE() << "must throw";
-    } catch (const std::runtime_error& error) {
-      EXPECT_THAT(error.what(), HasSubstr(path.string()));
-    }
+TEST_F(ListPhotosTest, SearchesSubfoldersButNoHiddenOnesLinksAndSessions) {
+  for (const char* name : {"DCIM/100MEDIA/b2.jpg",
+                           "DCIM/100MEDIA/b10.jpg",
+                           "DCIM/101MEDIA/a.jpg",
+                           ".thumbnails/a.jpg",
+                           "session/session.db",
+                           "session/photos/a.jpg",
+                           "c.jpg"}) {
+    Write(name);
   }
-  std::filesystem::remove_all(folder);
+  std::filesystem::create_directory_symlink(folder_, folder_ / "loop");
+  const PhotoListing listing = List();
+  EXPECT_THAT(
+      listing.photos,
+      ElementsAre("DCIM/100MEDIA/b2.jpg", "DCIM/100MEDIA/b10.jpg", "DCIM/101MEDIA/a.jpg", "c.jpg"));
+  const Names lines = Describe(listing);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0], "photos in sub-folders: DCIM/100MEDIA/ (2), DCIM/101MEDIA/ (1)");
+  EXPECT_THAT(lines[1], HasSubstr("1 hidden, 1 linked folder, 1 session"));
+}
+
+TEST_F(ListPhotosTest, ListsALinkThatLeadsNowhereButNoPipe) {
+  std::filesystem::create_symlink(folder_ / "gone", folder_ / "a.jpg");
+  ASSERT_EQ(::mkfifo((folder_ / "pipe.jpg").c_str(), 0600), 0);
+  EXPECT_THAT(List().photos, ElementsAre("a.jpg"));
+}
+
+TEST_F(ListPhotosTest, NamesAnAbsentFolderAndOneWithoutPhotos) {
+  const std::filesystem::path absent = folder_ / "absent";
+  EXPECT_THAT(ErrorOf(absent), HasSubstr(absent.string()));
+  EXPECT_THAT(ErrorOf(folder_), HasSubstr(folder_.string() + ": holds no photo"));
+  Write("film.mp4");
+  EXPECT_THAT(ErrorOf(folder_), HasSubstr("only 1 .mp4"));
 }
 
 }  // namespace

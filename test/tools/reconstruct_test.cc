@@ -91,15 +91,14 @@ class ReconstructTest : public testing::Test {
   std::string output_;
 };
 
-TEST_F(ReconstructTest, GivesEveryBadFileAVerdictAndGoesOn) {
+TEST_F(ReconstructTest, GivesEveryBadPhotoAVerdictAndGoesOn) {
   WritePhoto("empty.jpg", "");
-  WritePhoto("notes.txt", "not a photo");
+  WritePhoto("notes.jpg", "not a photo");
   WritePhoto("truncated.jpg", std::string("\xff\xd8\xff\xe0\x00\x10JFIF", 10));
-  fs::create_symlink(root_ / "gone.jpg", root_ / "photos" / "dangling.jpg");
   EXPECT_EQ(Run(), kNothingLocated);
   const nlohmann::json report = Report();
-  EXPECT_EQ(report["session"]["photos"], 4);
-  EXPECT_EQ(report["session"]["refused"], 4);
+  EXPECT_EQ(report["session"]["photos"], 3);
+  EXPECT_EQ(report["session"]["refused"], 3);
   std::set<std::string> names;
   for (const auto& photo : report["photos"]) {
     EXPECT_EQ(photo["reason"], "undecodable") << photo;
@@ -107,48 +106,111 @@ TEST_F(ReconstructTest, GivesEveryBadFileAVerdictAndGoesOn) {
     names.insert(photo["name"]);
     EXPECT_THAT(output_, HasSubstr(photo["name"].get<std::string>() + ": refused, undecodable"));
   }
-  EXPECT_THAT(names,
-              testing::ElementsAre("dangling.jpg", "empty.jpg", "notes.txt", "truncated.jpg"));
-  const std::vector<std::uint8_t> kept = ReadFileBytes(arguments_.session + "/photos/notes.txt");
+  EXPECT_THAT(names, testing::ElementsAre("empty.jpg", "notes.jpg", "truncated.jpg"));
+  const std::vector<std::uint8_t> kept = ReadFileBytes(arguments_.session + "/photos/notes.jpg");
   EXPECT_EQ(std::string(kept.begin(), kept.end()), "not a photo");
   EXPECT_TRUE(fs::exists(arguments_.session + "/export/colmap/images.txt"));
   EXPECT_TRUE(fs::exists(arguments_.session + "/export/points.ply"));
 }
 
-TEST_F(ReconstructTest, ASecondRunTakesOnlyWhatIsNew) {
-  WritePhoto("a.txt", "first");
-  WritePhoto("b.txt", "second");
+TEST_F(ReconstructTest, LeavesWhatIsNoPhotoOutOfTheSessionAndSaysSo) {
+  WritePhoto("a.jpg", "first");
+  for (const char* name : {"DJI_1.MP4", "DJI_1.SRT", "notes.txt", "Thumbs.db", ".DS_Store"}) {
+    WritePhoto(name, "x");
+  }
   Run();
-  WritePhoto("b.txt", "another under the same name");
-  WritePhoto("c.txt", "third");
+  EXPECT_THAT(output_, HasSubstr("1 .db, 1 .mp4, 1 .srt, 1 .txt, 1 hidden"));
+  EXPECT_EQ(Report()["session"]["photos"], 1);
+  EXPECT_FALSE(fs::exists(arguments_.session + "/photos/notes.txt"));
+}
+
+TEST_F(ReconstructTest, AFileThatCannotBeReadIsNamedAndTakenOnceItCan) {
+  fs::create_symlink(root_ / "card" / "a.jpg", root_ / "photos" / "a.jpg");
+  WritePhoto("b.jpg", "second");
+  Run();
+  EXPECT_THAT(output_, HasSubstr("a.jpg: not taken: "));
+  EXPECT_THAT(output_, HasSubstr("is a link to " + (root_ / "card" / "a.jpg").string()));
+  EXPECT_EQ(Report()["session"]["photos"], 1);
+  EXPECT_EQ(Report()["run"]["unread"].size(), 1u);
+  EXPECT_FALSE(fs::exists(arguments_.session + "/photos/a.jpg"));
+  fs::create_directory(root_ / "card");
+  std::ofstream(root_ / "card" / "a.jpg") << "first";
+  Run();
+  EXPECT_EQ(Report()["session"]["photos"], 2);
+  EXPECT_TRUE(Report()["run"]["unread"].empty());
+  EXPECT_TRUE(fs::exists(arguments_.session + "/photos/a.jpg"));
+}
+
+TEST_F(ReconstructTest, TakesPhotosOfSubfoldersAndTellsThoseOfOneNameApart) {
+  fs::create_directories(root_ / "photos" / "DCIM" / "100MEDIA");
+  fs::create_directories(root_ / "photos" / "DCIM" / "101MEDIA");
+  WritePhoto("DCIM/100MEDIA/a.jpg", "first");
+  WritePhoto("DCIM/101MEDIA/a.jpg", "second");
+  Run();
+  EXPECT_THAT(output_, HasSubstr("DCIM/100MEDIA/ (1), DCIM/101MEDIA/ (1)"));
+  const SessionStore store = SessionStore::OpenExisting(arguments_.session);
+  std::vector<std::string> names;
+  for (const StoredPhoto& photo : store.Photos()) names.push_back(photo.name);
+  EXPECT_THAT(names, testing::ElementsAre("a.jpg", "101MEDIA_a.jpg"));
+  Run();
+  EXPECT_THAT(output_, HasSubstr("2 files were in the session already"));
+}
+
+TEST_F(ReconstructTest, RefusesASessionThatIsMixedUpWithThePhotos) {
+  WritePhoto("a.jpg", "first");
+  const std::string photos = arguments_.photos;
+  const std::string session = arguments_.session;
+  arguments_.session = photos + "/";
+  EXPECT_THAT(ErrorOf(), HasSubstr("is the folder of the photos"));
+  arguments_.session = root_.string();
+  EXPECT_THAT(ErrorOf(), HasSubstr("lies inside the session"));
+  arguments_.session = session;
+  Run();
+  arguments_.photos = session + "/photos";
+  EXPECT_THAT(ErrorOf(), HasSubstr("lies inside the session"));
+  EXPECT_FALSE(fs::exists(photos + "/session.db"));
+
+  arguments_.photos = photos;
+  arguments_.session = photos + "/session";  // Below the photos it is told apart from them.
+  Run();
+  Run();
+  EXPECT_EQ(Report()["session"]["photos"], 1);
+}
+
+TEST_F(ReconstructTest, ASecondRunTakesOnlyWhatIsNew) {
+  WritePhoto("a.jpg", "first");
+  WritePhoto("b.jpg", "second");
+  Run();
+  WritePhoto("b.jpg", "another under the same name");
+  WritePhoto("c.jpg", "third");
   Run();
   EXPECT_THAT(output_, HasSubstr("1 files were in the session already"));
   const SessionStore store = SessionStore::OpenExisting(arguments_.session);
   std::vector<std::string> names;
   for (const StoredPhoto& photo : store.Photos()) names.push_back(photo.name);
-  EXPECT_THAT(names, testing::ElementsAre("a.txt", "b.txt", "b_2.txt", "c.txt"));
+  EXPECT_THAT(names, testing::ElementsAre("a.jpg", "b.jpg", "b_2.jpg", "c.jpg"));
   EXPECT_EQ(store.LatestVerdicts().size(), 4u);
 }
 
 TEST_F(ReconstructTest, FinishesFirstWhatWasCutOff) {
-  WritePhoto("a.txt", "first");
+  WritePhoto("a.jpg", "first");
   {
     SessionStore store(arguments_.session, ReadCameraYaml(arguments_.camera));
-    store.SavePhoto({0}, "cut_off.txt", {'x'});  // No analysis, no verdict.
+    store.SavePhoto({0}, "cut_off.jpg", {'x'});  // No analysis, no verdict.
   }
   Run();
   const SessionStore store = SessionStore::OpenExisting(arguments_.session);
   const std::vector<PhotoVerdict> verdicts = store.AllVerdicts();
   ASSERT_EQ(verdicts.size(), 2u);
-  EXPECT_EQ(verdicts[0].name, "cut_off.txt");
+  EXPECT_EQ(verdicts[0].name, "cut_off.jpg");
   EXPECT_EQ(verdicts[0].photo, PhotoId{0});
-  EXPECT_EQ(verdicts[1].name, "a.txt");
+  EXPECT_EQ(verdicts[1].name, "a.jpg");
   EXPECT_EQ(verdicts[1].photo, PhotoId{1});
   EXPECT_EQ(store.Photos().size(), 2u);
 }
 
 TEST_F(ReconstructTest, StopsBetweenPhotosAndKeepsWhatThereIs) {
-  WritePhoto("a.txt", "first");
+  WritePhoto("a.jpg", "first");
   EXPECT_EQ(Run(/*stop=*/true), kInterrupted);
   EXPECT_EQ(Report()["run"]["interrupted"], true);
   EXPECT_EQ(Run(), kNothingLocated);
@@ -157,8 +219,8 @@ TEST_F(ReconstructTest, StopsBetweenPhotosAndKeepsWhatThereIs) {
 }
 
 TEST_F(ReconstructTest, WhatIsWrongWithTheArgumentsIsNamedBeforeASessionIsMade) {
-  EXPECT_THAT(ErrorOf(), HasSubstr(arguments_.photos + ": holds no file"));
-  WritePhoto("a.txt", "first");
+  EXPECT_THAT(ErrorOf(), HasSubstr(arguments_.photos + ": holds no photo"));
+  WritePhoto("a.jpg", "first");
   arguments_.order = "sideways";
   EXPECT_THAT(ErrorOf(), HasSubstr("sideways"));
   arguments_.order = "name";

@@ -27,8 +27,8 @@ class PhotoFolder {
   void Prepare();
 
   // The name under which these bytes are or will be kept: SafeFileName(name), or, where that is
-  // another photo's, the first free of stem_2, stem_3, … The name stays theirs. The same
-  // name and bytes get the same answer again.
+  // another photo's, the first free of folder_stem, if `name` has a folder, and stem_2, stem_3, …
+  // The name stays theirs. The same name and bytes get the same answer again.
   std::string ClaimName(const std::string& name, const std::vector<std::uint8_t>& bytes);
 
   // Writes the bytes under their claimed name, unless they are there, and returns it. Throws

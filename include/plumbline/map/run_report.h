@@ -34,14 +34,15 @@ struct RunReport {
   std::map<PhotoId, PhotoTurn> turns;  // Of the photos of this run.
   std::size_t num_landmarks = 0;
   std::size_t num_observations = 0;
-  double wall_s = 0.0;  // Of this run, from start to end.
+  std::vector<std::string> unread;  // Files that this run could not read, each with the cause.
+  double wall_s = 0.0;              // Of this run, from start to end.
   ProcessUsage usage;
   bool interrupted = false;  // Ended before all photos were taken.
   nlohmann::ordered_json options;
 };
 
 // Of the form
-//   { "run": { "wall_s", "cpu_s", "peak_memory_bytes", "interrupted" },
+//   { "run": { "wall_s", "cpu_s", "peak_memory_bytes", "interrupted", "unread": [ … ] },
 //     "session": { "photos", "accepted", "waiting", "refused", "landmarks", "observations" },
 //     "photos": [ { "id", "name", "verdict", "reason", "hint", "matches", "inliers",
 //                   "median_error_px", "seconds": { "decode_s", … }, "attempts": [ … ],
