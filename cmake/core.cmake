@@ -5,6 +5,8 @@
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(OpenCV REQUIRED COMPONENTS core imgcodecs imgproc features2d calib3d)
 find_package(Ceres REQUIRED)
+find_package(CGAL REQUIRED)
+find_path(NANOFLANN_INCLUDE_DIR nanoflann.hpp REQUIRED)
 find_package(Threads REQUIRED)
 find_package(yaml-cpp REQUIRED)
 find_package(nlohmann_json REQUIRED)
@@ -51,6 +53,8 @@ plumb_module(simulation plumb_image embree PkgConfig::PROJ)
 set_source_files_properties(src/simulation/develop.cc PROPERTIES COMPILE_OPTIONS -fno-math-errno)
 plumb_module(export plumb_sfm)
 plumb_module(evaluation plumb_export)
+target_link_libraries(plumb_evaluation PRIVATE CGAL::CGAL)
+target_include_directories(plumb_evaluation SYSTEM PRIVATE ${NANOFLANN_INCLUDE_DIR})
 
 # The command-line program; all but its main is a library, so that it can be tested.
 plumb_module(tools plumb_evaluation yaml-cpp CLI11::CLI11)

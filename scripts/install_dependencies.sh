@@ -9,8 +9,9 @@ packages=(
   # Build.
   build-essential ccache cmake pkg-config
   # The core.
-  libceres-dev libcli11-dev libeigen3-dev libembree-dev libexiv2-dev libopencv-dev libsqlite3-dev
-  libsuitesparse-dev libjpeg-dev libproj-dev libyaml-cpp-dev nlohmann-json3-dev
+  libceres-dev libcgal-dev libcli11-dev libeigen3-dev libembree-dev libexiv2-dev libjpeg-dev
+  libnanoflann-dev libopencv-dev libproj-dev libsqlite3-dev libsuitesparse-dev libyaml-cpp-dev
+  nlohmann-json3-dev
   # ROS 1.
   libcv-bridge-dev libdiagnostic-updater-dev libtf2-ros-dev python3-diagnostic-msgs python3-nav-msgs python3-rostest
   python3-sensor-msgs python3-std-srvs python3-tf2-ros python3-visualization-msgs

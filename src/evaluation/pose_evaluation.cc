@@ -9,7 +9,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "plumbline/geometry/alignment.h"
+#include "evaluation/center_alignment.h"
 
 namespace plumb {
 namespace {
@@ -25,6 +25,11 @@ ErrorSummary Summarise(std::vector<double> errors) {
       errors.size() % 2 == 1 ? errors[middle] : 0.5 * (errors[middle - 1] + errors[middle]);
   const double sum = std::accumulate(errors.begin(), errors.end(), 0.0);
   return {sum / static_cast<double>(errors.size()), median, errors.back()};
+}
+
+bool IsWrong(const PhotoError& error, const PoseTolerance& tolerance) {
+  return error.center_error_mm > kMmPerM * tolerance.max_center_error_m ||
+         error.rotation_error_deg > tolerance.max_rotation_error_deg;
 }
 
 struct Pair {
@@ -50,20 +55,23 @@ std::vector<Pair> PairUp(const std::vector<ViewState>& views,
   return pairs;
 }
 
-Similarity3 Align(const std::vector<Pair>& pairs) {
+Centers CentersOf(const std::vector<Pair>& pairs) {
+  Centers centers;
+  for (const Pair& pair : pairs) {
+    centers.in_map.push_back(pair.view->cam_from_map.TargetOriginInSource());
+    centers.in_world.push_back(pair.truth->center_in_world_m);
+  }
+  return centers;
+}
+
+Similarity3 Align(const std::vector<Pair>& pairs, double max_error_m) {
   if (pairs.size() < 3) {
     throw std::runtime_error(
         "an alignment needs three photos that are both in the map and in the "
         "truth, but there are " +
         std::to_string(pairs.size()) + "; compare the names of the photos in both");
   }
-  std::vector<Eigen::Vector3d> centers_in_map;
-  std::vector<Eigen::Vector3d> centers_in_world;
-  for (const Pair& pair : pairs) {
-    centers_in_map.push_back(pair.view->cam_from_map.TargetOriginInSource());
-    centers_in_world.push_back(pair.truth->center_in_world_m);
-  }
-  const std::optional<Similarity3> world_from_map = AlignPoints(centers_in_map, centers_in_world);
+  const std::optional<Similarity3> world_from_map = AlignCenters(CentersOf(pairs), max_error_m);
   if (!world_from_map) {
     throw std::runtime_error(
         "the camera centres lie on a line, so that the rotation about it is free; evaluate a "
@@ -84,18 +92,22 @@ PhotoError ErrorOf(const Similarity3& world_from_map, const Pair& pair) {
 }  // namespace
 
 PoseEvaluation EvaluatePoses(const std::vector<ViewState>& views,
-                             const std::vector<TruePose>& truth) {
+                             const std::vector<TruePose>& truth,
+                             const PoseTolerance& tolerance) {
   PoseEvaluation evaluation;
   const std::vector<Pair> pairs = PairUp(views, truth, &evaluation.missed);
   evaluation.num_truth = static_cast<int>(truth.size());
   evaluation.num_registered = static_cast<int>(pairs.size());
-  evaluation.world_from_map = Align(pairs);
+  evaluation.world_from_map = Align(pairs, tolerance.max_center_error_m);
   std::vector<double> center_errors_mm;
   std::vector<double> rotation_errors_deg;
   for (const Pair& pair : pairs) {
     evaluation.photos.push_back(ErrorOf(evaluation.world_from_map, pair));
     center_errors_mm.push_back(evaluation.photos.back().center_error_mm);
     rotation_errors_deg.push_back(evaluation.photos.back().rotation_error_deg);
+    if (IsWrong(evaluation.photos.back(), tolerance)) {
+      evaluation.wrong.push_back(pair.truth->photo);
+    }
   }
   evaluation.center_error_mm = Summarise(center_errors_mm);
   evaluation.rotation_error_deg = Summarise(rotation_errors_deg);

@@ -118,6 +118,37 @@ TEST(EvaluatePoses, PairsByNameAndNamesWhatTheMapMissed) {
   EXPECT_LT(evaluation.center_error_mm.max, 1e-9);
 }
 
+TEST(EvaluatePoses, OneWrongPoseDoesNotSpoilTheOthers) {
+  const std::vector<TruePose> truth = MakeTruth();
+  std::vector<TruePose> measured = truth;
+  measured[1].center_in_world_m += Eigen::Vector3d(0.0, 20.0, 0.0);
+  measured[3].center_in_world_m.x() += 0.01;  // Inaccurate, not wrong.
+  const PoseEvaluation evaluation = EvaluatePoses(ViewsOf(measured, MakeMapFromWorld()), truth);
+  EXPECT_THAT(evaluation.wrong, testing::ElementsAre("1.jpg"));
+  EXPECT_NEAR(evaluation.center_error_mm.max, 20'000.0, 20.0);
+  EXPECT_LT(evaluation.center_error_mm.median, 10.0);
+}
+
+TEST(EvaluatePoses, ACameraThatIsOnlyTurnedIsWrong) {
+  const std::vector<TruePose> truth = MakeTruth();
+  std::vector<TruePose> measured = truth;
+  measured[2].cam_from_world_rotation =
+      Eigen::AngleAxisd(0.02, Eigen::Vector3d::UnitX()) * truth[2].cam_from_world_rotation;
+  const auto views = ViewsOf(measured, MakeMapFromWorld());
+  EXPECT_THAT(EvaluatePoses(views, truth).wrong, testing::ElementsAre("2.jpg"));
+  EXPECT_THAT(EvaluatePoses(views, truth, {0.1, 1.5}).wrong, testing::IsEmpty());
+}
+
+TEST(EvaluatePoses, WithoutAMajorityAllCountAlike) {
+  const std::vector<TruePose> truth = MakeTruth();
+  std::vector<TruePose> measured = truth;
+  for (std::size_t i = 0; i < 3; ++i) {
+    measured[i].center_in_world_m *= 3.0 + static_cast<double>(i);
+  }
+  const PoseEvaluation evaluation = EvaluatePoses(ViewsOf(measured, MakeMapFromWorld()), truth);
+  EXPECT_GE(evaluation.wrong.size(), 3u);
+}
+
 TEST(EvaluatePoses, NeedsThreeCommonPhotosThatAreNotInALine) {
   std::vector<TruePose> truth = MakeTruth();
   const std::vector<ViewState> views = ViewsOf(truth, MakeMapFromWorld());
