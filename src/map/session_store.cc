@@ -24,6 +24,14 @@ std::string ExistingDatabasePath(const std::string& folder) {
                            "`plumbline reconstruct` or to the launch file");
 }
 
+// A session that lies at rest is read without a trace, from a medium that cannot be written too.
+sqlite::Access ReadAccess(const std::string& folder, const SessionReadLock& lock) {
+  std::error_code error;  // Of an absent log.
+  const std::uintmax_t log_bytes = std::filesystem::file_size(DatabasePath(folder) + "-wal", error);
+  const bool has_log = !error && log_bytes > 0;
+  return lock.is_held() && !has_log ? sqlite::Access::kReadFrozen : sqlite::Access::kRead;
+}
+
 // NORMAL: a commit waits for no disk; a killed process loses nothing, a power cut at
 // worst the last commits. 64 MB of cache keep the map's tables in memory.
 constexpr char kConnectionSettings[] =
@@ -37,7 +45,7 @@ class SessionStore::Impl {
       : folder_(folder),
         photos_(folder + "/photos"),
         lock_(folder),
-        database_(DatabasePath(folder), /*may_create=*/true),
+        database_(DatabasePath(folder), sqlite::Access::kWrite),
         camera_(camera) {
     PrepareSession(&database_, camera);
     photos_.Prepare();
@@ -47,7 +55,8 @@ class SessionStore::Impl {
   explicit Impl(const std::string& folder)
       : folder_(folder),
         photos_(folder + "/photos"),
-        database_(ExistingDatabasePath(folder), /*may_create=*/false),
+        read_lock_(folder),
+        database_(ExistingDatabasePath(folder), ReadAccess(folder, *read_lock_)),
         camera_(ReadSessionCamera(&database_)) {
     database_.Execute(kConnectionSettings);
   }
@@ -55,6 +64,7 @@ class SessionStore::Impl {
   std::string folder_;
   PhotoFolder photos_;
   std::optional<SessionLock> lock_;
+  std::optional<SessionReadLock> read_lock_;
   sqlite::Database database_;
   Camera camera_;
 };

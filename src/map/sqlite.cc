@@ -20,7 +20,8 @@ const char* CureFor(int code) {
     case SQLITE_READONLY:
     case SQLITE_CANTOPEN:
     case SQLITE_PERM:
-      return "make the file and its folder writable or choose another session folder";
+      return "make the file and its folder writable, copy the session to where they are, or choose "
+             "another session folder";
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       return "another program uses this session: wait for it or end it";
@@ -29,6 +30,27 @@ const char* CureFor(int code) {
     default:
       return "the file may be damaged: choose another session folder";
   }
+}
+
+// https://www.sqlite.org/uri.html
+std::string Uri(const std::string& path, Access access) {
+  std::string uri = "file:";
+  for (const char character : path) {
+    switch (character) {
+      case '%':
+        uri += "%25";
+        break;
+      case '?':
+        uri += "%3f";
+        break;
+      case '#':
+        uri += "%23";
+        break;
+      default:
+        uri += character;
+    }
+  }
+  return uri + (access == Access::kReadFrozen ? "?immutable=1" : "?mode=ro");
 }
 
 }  // namespace
@@ -89,10 +111,12 @@ std::optional<double> Statement::OptionalDouble(int column) const {
   return Double(column);
 }
 
-Database::Database(const std::string& path, bool may_create) : path_(path) {
+Database::Database(const std::string& path, Access access) : path_(path) {
   sqlite3* handle = nullptr;
-  const int flags = SQLITE_OPEN_READWRITE | (may_create ? SQLITE_OPEN_CREATE : 0);
-  const int code = sqlite3_open_v2(path.c_str(), &handle, flags, nullptr);
+  const int flags = access == Access::kWrite ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE
+                                             : SQLITE_OPEN_READONLY | SQLITE_OPEN_URI;
+  const std::string name = access == Access::kWrite ? path : Uri(path, access);
+  const int code = sqlite3_open_v2(name.c_str(), &handle, flags, nullptr);
   handle_.reset(handle);
   if (code != SQLITE_OK) Fail(code);
   sqlite3_busy_timeout(handle, kBusyTimeout_ms);

@@ -19,6 +19,13 @@ struct Blob {
   std::size_t size = 0;
 };
 
+enum class Access {
+  kWrite,      // Makes the file if it is absent.
+  kRead,       // While others may write.
+  kReadFrozen  // Nobody writes, and there is no write-ahead log: nothing beside the file is
+               // touched.
+};
+
 class Database;
 
 // A prepared statement. Parameters count from 1, columns from 0.
@@ -79,8 +86,7 @@ class Statement {
 // the cure. Not thread-safe.
 class Database {
  public:
-  // Creates the file if it is absent and `may_create`.
-  Database(const std::string& path, bool may_create);
+  Database(const std::string& path, Access access);
 
   const std::string& path() const { return path_; }
 

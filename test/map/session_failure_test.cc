@@ -15,6 +15,7 @@
 #include <fstream>
 #include <functional>
 #include <map>
+#include <set>
 
 #include "plumbline/map/session_store.h"
 #include "test/map/session_fixture.h"
@@ -100,7 +101,7 @@ TEST_F(SessionFailure, ReadingAFolderWithoutASessionMakesNone) {
 TEST_F(SessionFailure, ASecondWriterIsRefusedWhileAReaderIsWelcome) {
   SessionStore store(folder_, MakeCamera());
   EXPECT_THAT(ErrorOf([&] { SessionStore second(folder_, MakeCamera()); }),
-              AllOf(HasSubstr(folder_), HasSubstr("another program writes")));
+              AllOf(HasSubstr(folder_), HasSubstr("another program uses")));
   EXPECT_EQ(SessionStore::OpenExisting(folder_).NextPhotoId(), PhotoId{0});
 }
 
@@ -134,6 +135,69 @@ TEST_F(SessionFailure, ASessionThatBecameReadOnlyIsNamed) {
   });
   if (status == kChildCannotTry) GTEST_SKIP() << "cannot become an unprivileged user";
   EXPECT_EQ(status, kChildPassed);
+}
+
+// Files and folders of the session and above it, for nobody to write.
+void MakeReadOnly(const std::filesystem::path& root) {
+  namespace fs = std::filesystem;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root)) {
+    fs::permissions(entry, fs::perms(entry.is_directory() ? 0555 : 0444));
+  }
+  fs::permissions(root, fs::perms(0555));
+}
+
+std::set<std::string> FilesOf(const std::string& folder) {
+  std::set<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) files.insert(entry.path());
+  return files;
+}
+
+TEST_F(SessionFailure, ASessionOnAReadOnlyMediumIsReadWithoutATrace) {
+  {
+    SessionStore store(folder_, MakeCamera());
+    store.SavePhoto({0}, "a.jpg", MakeBytes(100, 1));
+    store.Apply(MakeDelta(1, 0, 5));
+  }
+  const std::set<std::string> files = FilesOf(folder_);
+  MakeReadOnly(root_);
+  const int status = InChild([&] {
+    if (::geteuid() == 0 && ::seteuid(65534) != 0) return kChildCannotTry;
+    const SessionStore store = SessionStore::OpenExisting(folder_);
+    const bool is_read = store.Photos().size() == 1 && store.Snapshot().landmarks_set.size() == 5;
+    return is_read ? kChildPassed : kChildFailed;
+  });
+  EXPECT_EQ(FilesOf(folder_), files);
+  if (status == kChildCannotTry) GTEST_SKIP() << "cannot become an unprivileged user";
+  EXPECT_EQ(status, kChildPassed);
+}
+
+TEST_F(SessionFailure, WhatAKilledWriterLeftInTheLogIsRead) {
+  ASSERT_EQ(InChild([&] {
+              SessionStore store(folder_, MakeCamera());
+              store.SavePhoto({0}, "a.jpg", MakeBytes(100, 1));
+              store.Apply(MakeDelta(1, 0, 5));
+              ::_exit(kChildPassed);  // The database is not closed.
+              return kChildFailed;
+            }),
+            kChildPassed);
+  ASSERT_TRUE(std::filesystem::exists(folder_ + "/session.db-wal"));
+  EXPECT_EQ(SessionStore::OpenExisting(folder_).Snapshot().landmarks_set.size(), 5u);
+
+  std::filesystem::remove(folder_ + "/session.db-shm");
+  MakeReadOnly(root_);
+  const int status = InChild([&] {
+    if (::geteuid() == 0 && ::seteuid(65534) != 0) return kChildCannotTry;
+    return Check(ErrorOf([&] { SessionStore::OpenExisting(folder_).Snapshot(); }),
+                 {folder_ + "/session.db", "copy the session"});
+  });
+  if (status == kChildCannotTry) GTEST_SKIP() << "cannot become an unprivileged user";
+  EXPECT_EQ(status, kChildPassed);
+}
+
+TEST_F(SessionFailure, AFolderWithSignsOfAUriIsRead) {
+  const std::string folder = folder_ + "/50% #1?mode=rw";
+  { SessionStore store(folder, MakeCamera()); }
+  EXPECT_EQ(SessionStore::OpenExisting(folder).NextPhotoId(), PhotoId{0});
 }
 
 TEST_F(SessionFailure, AFullDiskIsNamedWithItsCureAndLosesNothingWritten) {

@@ -24,7 +24,15 @@ class SessionTest : public testing::Test {
     root_ = ::mkdtemp(pattern.data());
     folder_ = (root_ / "flight").string();
   }
-  ~SessionTest() override { std::filesystem::remove_all(root_); }
+  ~SessionTest() override {
+    namespace fs = std::filesystem;
+    fs::permissions(root_, fs::perms::owner_all, fs::perm_options::add);
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root_)) {
+      if (!entry.is_directory()) continue;
+      fs::permissions(entry, fs::perms::owner_all, fs::perm_options::add);
+    }
+    fs::remove_all(root_);
+  }
 
   std::filesystem::path root_;
   std::string folder_;

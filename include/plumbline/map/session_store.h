@@ -41,7 +41,8 @@ class SessionStore {
   // schema, what is not a session database, and a session another program writes.
   SessionStore(const std::string& folder, const Camera& camera);
 
-  // Opens a session only to read it, even while it is being written.
+  // Opens a session only to read it, even while it is being written, or from a medium that cannot
+  // be written. One that lies at rest is left without a trace.
   static SessionStore OpenExisting(const std::string& folder);
 
   SessionStore(SessionStore&&) noexcept;
