@@ -33,7 +33,7 @@ test: build ## Build and run every test: the core's, the ROS graph's, and the co
 test-sanitize: deps ## Run the core's tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	@test -f $(SANITIZED)/CMakeCache.txt || cmake -S . -B $(SANITIZED) \
 	  -DCMAKE_BUILD_TYPE=RelWithDebInfo -DPLUMBLINE_BUILD_ROS=OFF -DPLUMBLINE_SANITIZE=ON
-	cmake --build $(SANITIZED) -j$(JOBS)
+	cmake --build $(SANITIZED) -j$(JOBS) --target tests
 	ctest --test-dir $(SANITIZED) --output-on-failure
 
 bench: build ## Measure accuracy and seconds a photo on the shared scenes, into build/bench

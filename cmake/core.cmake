@@ -66,15 +66,18 @@ target_include_directories(plumbline_tool PRIVATE ${PROJECT_SOURCE_DIR}/src)
 target_compile_definitions(plumbline_tool PRIVATE PLUMBLINE_VERSION="${PLUMBLINE_VERSION}")
 target_link_libraries(plumbline_tool PRIVATE plumb_tools plumb_warnings)
 
-# One test program a module: test/<name>/*_test.cc as <name>_test.
+# One test program a module: test/<name>/*_test.cc as <name>_test. The target `tests`, to which
+# catkin adds its own, builds them.
 find_package(GTest REQUIRED)
 enable_testing()
+add_custom_target(tests)
 function(plumb_module_test name)
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/${name}/*.cc)
   if(NOT sources)
     return()
   endif()
-  add_executable(${name}_test ${sources})
+  add_executable(${name}_test EXCLUDE_FROM_ALL ${sources})
+  add_dependencies(tests ${name}_test)
   target_include_directories(${name}_test PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/src)
   target_compile_definitions(${name}_test PRIVATE PLUMBLINE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_link_libraries(${name}_test PRIVATE ${ARGN} GTest::gmock GTest::gtest_main plumb_warnings)
