@@ -51,6 +51,9 @@ plumb_module(sfm plumb_matching Ceres::ceres)
 plumb_module(simulation plumb_image embree PkgConfig::PROJ)
 # A vectorised square root sets no errno.
 set_source_files_properties(src/simulation/develop.cc PROPERTIES COMPILE_OPTIONS -fno-math-errno)
+# All processors shall render the same bits: nothing is contracted to fused operations.
+file(GLOB shade_kernels CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/simulation/shade_kernel*.cc)
+set_source_files_properties(${shade_kernels} PROPERTIES COMPILE_OPTIONS -ffp-contract=off)
 plumb_module(export plumb_sfm)
 plumb_module(evaluation plumb_export)
 target_link_libraries(plumb_evaluation PRIVATE CGAL::CGAL)
