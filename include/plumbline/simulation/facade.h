@@ -25,6 +25,10 @@ struct FacadeOptions {
   double balcony_share = 0.15;
   int num_doors = 2;
   int num_downpipes = 3;
+  double cornice_out_m = 0.7;  // How far the main cornice stands out of the wall.
+  // Plates for control points, spread over the main wall, or over all four where it is closed.
+  int num_targets = 17;
+  double target_side_m = 0.5;
   bool closed = false;  // All four sides have bays: a building to fly around.
   // 0: each window, sill, stone is unique; 1: all are exact copies, detail included.
   double repetition = 0.0;
@@ -50,6 +54,9 @@ void VisitFields(FacadeOptions& options, Visitor&& visit) {
   visit("balcony_share", options.balcony_share);
   visit("num_doors", options.num_doors);
   visit("num_downpipes", options.num_downpipes);
+  visit("cornice_out_m", options.cornice_out_m);
+  visit("num_targets", options.num_targets);
+  visit("target_side_m", options.target_side_m);
   visit("closed", options.closed);
   visit("repetition", options.repetition);
   visit("textureless_share", options.textureless_share);
