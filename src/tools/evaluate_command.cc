@@ -7,6 +7,7 @@
 #include "plumbline/evaluation/pose_evaluation.h"
 #include "plumbline/map/session_store.h"
 #include "tools/commands.h"
+#include "tools/geometry_report.h"
 #include "tools/original_names.h"
 
 namespace plumb::tools {
@@ -28,6 +29,7 @@ Json ToJson(const PoseEvaluation& evaluation) {
   return {{"registered", evaluation.num_registered},
           {"truth", evaluation.num_truth},
           {"missed", evaluation.missed},
+          {"wrong", evaluation.wrong},
           {"center_error_mm", ToJson(evaluation.center_error_mm)},
           {"rotation_error_deg", ToJson(evaluation.rotation_error_deg)},
           {"metres_per_map_unit", evaluation.world_from_map.scale},
@@ -36,32 +38,68 @@ Json ToJson(const PoseEvaluation& evaluation) {
 
 struct EvaluateArguments {
   std::string session;
-  std::string truth;
+  std::string poses;
+  GeometryTruth truth;
 };
+
+void AddOptions(CLI::App* command, EvaluateArguments* arguments) {
+  command->add_option("--session", arguments->session, "Folder of the session")->required();
+  command
+      ->add_option("--truth",
+                   arguments->poses,
+                   "CSV: photo,qw,qx,qy,qz,center_x_m,center_y_m,center_z_m (cam_from_world "
+                   "rotation, camera centre in metres)")
+      ->required();
+  GeometryTruth* truth = &arguments->truth;
+  command->add_option("--surface",
+                      truth->surface,
+                      "PLY of the true surface, a mesh in the frame of the true poses; faces whose "
+                      "property main_wall is not 0 are the wall that is truly flat");
+  command->add_option("--laser", truth->laser, "PLY of a scan, a point cloud in the same frame");
+  truth->num_samples = 500'000;
+  command
+      ->add_option(
+          "--samples", truth->num_samples, "Points at most of each truth, for completeness")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--wall-cell", truth->wall.cell_m, "Side of the squares that a bend shows in [m]")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+}
+
+void Evaluate(const EvaluateArguments& arguments) {
+  GeometryTruth truth = arguments.truth;
+  truth.photos = ReadTruePoses(arguments.poses);
+  const SessionStore store = SessionStore::OpenExisting(arguments.session);
+  const MapDelta snapshot = store.Snapshot();
+  const PoseEvaluation poses =
+      EvaluatePoses(WithOriginalNames(snapshot.views_set, store.Photos()), truth.photos);
+  Json report = ToJson(poses);
+  std::vector<Eigen::Vector3d> points_in_world;
+  for (const LandmarkState& landmark : snapshot.landmarks_set) {
+    points_in_world.push_back(poses.world_from_map * landmark.position_in_map);
+  }
+  ReportGeometry(truth, store.camera(), points_in_world, &report);
+  std::cout << report.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+}
 
 }  // namespace
 
 void AddEvaluateCommand(CLI::App* app, ExitCode* exit_code) {
   CLI::App* command =
-      app->add_subcommand("evaluate", "Compare the camera poses of a session with their truth");
+      app->add_subcommand("evaluate", "Compare a session's cameras and points with their truth");
   command->footer(
       "Prints JSON: photos registered, mean, median and largest error of the camera centres [mm] "
-      "and rotations [deg] after the similarity that fits the centres best, and those of each "
-      "photo. Photos are paired by the names they had where they came from.");
+      "and rotations [deg] after the similarity that fits the centres best, those of each photo, "
+      "and which are wrong (beyond 100 mm or 1 degree). With --surface or --laser also the points' "
+      "accuracy, completeness and F-score, and the bend of the flat wall [mm]; see "
+      "docs/evaluation.md. Photos are paired by the names they had where they came from.");
   const auto arguments = std::make_shared<EvaluateArguments>();
-  command->add_option("--session", arguments->session, "Folder of the session")->required();
-  command
-      ->add_option("--truth",
-                   arguments->truth,
-                   "CSV: photo,qw,qx,qy,qz,center_x_m,center_y_m,center_z_m (cam_from_world "
-                   "rotation, camera centre in metres)")
-      ->required();
+  AddOptions(command, arguments.get());
   command->callback([arguments, exit_code] {
-    const std::vector<TruePose> truth = ReadTruePoses(arguments->truth);
-    const SessionStore store = SessionStore::OpenExisting(arguments->session);
-    const PoseEvaluation evaluation =
-        EvaluatePoses(WithOriginalNames(store.Snapshot().views_set, store.Photos()), truth);
-    std::cout << ToJson(evaluation).dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+    Evaluate(*arguments);
     *exit_code = kDone;
   });
 }
