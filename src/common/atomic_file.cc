@@ -3,11 +3,13 @@
 #include "plumbline/common/atomic_file.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
@@ -117,5 +119,11 @@ std::vector<std::uint8_t> ReadFileBytes(const std::string& path) {
 }
 
 bool IsTemporaryFileName(const std::string& name) { return name.rfind(kTemporaryPrefix, 0) == 0; }
+
+bool IsAbandonedFileName(const std::string& name) {
+  if (!IsTemporaryFileName(name)) return false;
+  const long process = std::strtol(name.c_str() + sizeof(kTemporaryPrefix) - 1, nullptr, 10);
+  return process <= 0 || (::kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH);
+}
 
 }  // namespace plumb

@@ -72,7 +72,7 @@ void PhotoFolder::Prepare() {
   }
   for (const fs::directory_entry& entry : fs::directory_iterator(path_, error)) {
     std::error_code ignored;  // A leftover that cannot be removed does no harm.
-    if (IsTemporaryFileName(entry.path().filename().string())) fs::remove(entry.path(), ignored);
+    if (IsAbandonedFileName(entry.path().filename().string())) fs::remove(entry.path(), ignored);
   }
 }
 

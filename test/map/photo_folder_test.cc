@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -97,11 +98,20 @@ TEST_F(PhotoFolderTest, DoesNotWriteThroughALink) {
 
 TEST_F(PhotoFolderTest, ClearsWhatAKilledProcessLeftHalfWritten) {
   std::filesystem::create_directories(folder_);
-  const std::filesystem::path leftover = folder_ + "/.plumbline-17-a.jpg";
+  const std::filesystem::path leftover = folder_ + "/.plumbline-99999999-a.jpg";
   std::ofstream(leftover) << "half";
   PhotoFolder folder(folder_);
   folder.Prepare();
   EXPECT_FALSE(std::filesystem::exists(leftover));
+}
+
+TEST_F(PhotoFolderTest, KeepsWhatAnotherProcessIsWriting) {  // The mapper starts in mid-photo.
+  std::filesystem::create_directories(folder_);
+  const std::string name = "/.plumbline-" + std::to_string(::getppid()) + "-a.jpg";
+  std::ofstream(folder_ + name) << "half";
+  PhotoFolder folder(folder_);
+  folder.Prepare();
+  EXPECT_TRUE(std::filesystem::exists(folder_ + name));
 }
 
 TEST_F(PhotoFolderTest, AFileInTheWayIsNamed) {

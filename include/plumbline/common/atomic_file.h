@@ -21,4 +21,7 @@ std::vector<std::uint8_t> ReadFileBytes(const std::string& path);
 // True for the names that WriteFileAtomically gives its temporary files.
 bool IsTemporaryFileName(const std::string& name);
 
+// True for those of them whose process no longer runs: nobody will rename them.
+bool IsAbandonedFileName(const std::string& name);
+
 }  // namespace plumb
