@@ -21,6 +21,12 @@ namespace {
 
 constexpr double kTimerPeriod_s = 0.5;
 constexpr std::chrono::milliseconds kWatchFor{500};
+constexpr double kComplainEvery_s = 60.0;
+
+// Images of a topic that wait in memory for a full disk: some minutes of a camera at 1 Hz.
+constexpr std::size_t kMaxImageBytes = 512U << 20U;
+
+constexpr const char* kGoesOn = ". Nothing is lost, it goes on by itself";
 
 double SteadySeconds() { return ros::SteadyTime::now().toSec(); }
 
@@ -41,7 +47,9 @@ CameraIngest::CameraIngest(const ros::NodeHandle& handle, const CameraIngestOpti
   LoadCamera();
   if (!options_.photos_folder.empty()) {
     watcher_ = std::make_unique<FolderWatcher>(options_.photos_folder,
-                                               Milliseconds(options_.untouched_for_s));
+                                               WatchOptions{Milliseconds(options_.untouched_for_s),
+                                                            options_.max_subfolder_depth,
+                                                            options_.session_folder});
   }
   for (const TakenPhoto& photo : intake_.photos()) window_.Add(photo.sequence);
   photo_publisher_ = handle_.advertise<plumbline::Photo>("photo", 100);
@@ -49,6 +57,7 @@ CameraIngest::CameraIngest(const ros::NodeHandle& handle, const CameraIngestOpti
   diagnostics_.setHardwareID("camera");
   diagnostics_.add("photos", this, &CameraIngest::Diagnose);
   timer_ = handle_.createWallTimer(ros::WallDuration(kTimerPeriod_s), [this](const auto&) {
+    TakeImages();
     SendDue();
     diagnostics_.update();
   });
@@ -105,64 +114,141 @@ void CameraIngest::Subscribe() {
 
 void CameraIngest::WatchFolder() {
   std::vector<std::string> names;  // Those still to be taken up, after a full disk for instance.
+  NoteFolder();
   while (!is_stopping_) {
     for (std::string& name : watcher_->Wait(kWatchFor)) names.push_back(std::move(name));
-    std::vector<std::string> left;
-    for (const std::string& name : names) {
-      if (!left.empty() || !TakeFile(name)) left.push_back(name);
-    }
-    names = std::move(left);
-    is_folder_gone_ = !watcher_->is_watching();
-    if (is_folder_gone_) ROS_ERROR_THROTTLE(5.0, "%s is gone", options_.photos_folder.c_str());
+    NoteFolder();
+    TakeFiles(&names);
   }
 }
 
-// False if it must be tried again.
-bool CameraIngest::TakeFile(const std::string& name) {
-  const std::string path = options_.photos_folder + '/' + name;
-  try {
-    if (const std::optional<TakenPhoto> photo = intake_.TakeFile(path)) Enqueue(*photo);
-    return true;
-  } catch (const std::runtime_error& error) {
-    ROS_ERROR_THROTTLE(5.0, "%s is not taken up yet: %s", path.c_str(), error.what());
-    const std::lock_guard<std::mutex> lock(mutex_);
-    trouble_ = error.what();
-    return !std::filesystem::exists(path);
+void CameraIngest::NoteFolder() {
+  if (!watcher_->is_watching()) {
+    BeginTrouble(&folder_trouble_,
+                 options_.photos_folder +
+                     ": this folder is not there. Put the card in or correct photos_folder: "
+                     "photos are taken up as soon as it is there, without a restart",
+                 0);
+  } else if (EndTrouble(&folder_trouble_)) {
+    ROS_INFO("%s: the folder is there now; its photos are taken up",
+             options_.photos_folder.c_str());
   }
+}
+
+// Takes up those it can and leaves the others, to be tried again.
+void CameraIngest::TakeFiles(std::vector<std::string>* names) {
+  std::vector<std::string> left;
+  std::string trouble;
+  bool can_write = true;
+  for (const std::string& name : *names) {
+    if (is_stopping_) return;
+    if (!can_write) {
+      left.push_back(name);
+      continue;
+    }
+    try {
+      TakeFile(name);
+    } catch (const UnreadablePhoto& error) {
+      if (!std::filesystem::exists(options_.photos_folder + '/' + name)) {
+        watcher_->Forget(name);  // The card was pulled: found again when it is back.
+        continue;
+      }
+      left.push_back(name);
+      trouble = error.what();
+    } catch (const std::runtime_error& error) {
+      left.push_back(name);
+      trouble = error.what();
+      can_write = false;
+    }
+  }
+  *names = std::move(left);
+  if (!names->empty()) {
+    BeginTrouble(&file_trouble_, trouble + kGoesOn, names->size());
+  } else if (const auto num_waited = EndTrouble(&file_trouble_)) {
+    ROS_INFO("photos are taken up again, going on: %zu photos were waiting", *num_waited);
+  }
+}
+
+void CameraIngest::TakeFile(const std::string& name) {
+  const std::string folder =
+      (std::filesystem::path(options_.photos_folder) / name).parent_path().string();
+  bool is_new = false;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_new = folders_.insert(folder).second;
+  }
+  if (is_new) ROS_INFO("%s: photos in this folder are taken up", folder.c_str());
+  if (const auto photo = intake_.TakeFile(options_.photos_folder, name)) Enqueue(*photo);
 }
 
 void CameraIngest::TakeFromTopic(const std::string& source,
                                  const ros::Time& stamp,
                                  const std::vector<std::uint8_t>& bytes) {
   if (stamp.isZero()) {
-    ROS_ERROR_THROTTLE(5.0, "image dropped: its stamp is zero");
+    ROS_ERROR_THROTTLE(kComplainEvery_s, "image dropped: its stamp is zero");
     return;
   }
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!camera_) {
-      ROS_WARN_THROTTLE(5.0, "image dropped: no camera_info was heard yet");
+      ROS_WARN_THROTTLE(kComplainEvery_s, "image dropped: no camera_info was heard yet");
       return;
     }
   }
+  if (!images_.empty() && num_image_bytes_ + bytes.size() > kMaxImageBytes) {
+    ++num_images_lost_;
+    return;
+  }
+  num_image_bytes_ += bytes.size();
+  images_.push_back({source, FromRosTime(stamp), bytes});
+  TakeImages();
+}
+
+// A topic does not bring an image twice: what cannot be kept yet waits here.
+void CameraIngest::TakeImages() {
   try {
-    const auto photo = intake_.TakeBytes(source, FromRosTime(stamp), bytes);
-    if (photo) Enqueue(*photo);
+    while (!images_.empty()) {
+      const TopicImage& image = images_.front();
+      const auto photo = intake_.TakeBytes(image.source, image.exposure_time, image.bytes);
+      num_image_bytes_ -= image.bytes.size();
+      images_.pop_front();
+      if (photo) Enqueue(*photo);
+    }
   } catch (const std::runtime_error& error) {
-    ROS_ERROR("the image of %.3f s is lost: %s", stamp.toSec(), error.what());
-    const std::lock_guard<std::mutex> lock(mutex_);
-    trouble_ = error.what();
+    const std::string lost = std::to_string(num_images_lost_) + " images of the topic are lost: ";
+    BeginTrouble(&image_trouble_,
+                 num_images_lost_ > 0 ? lost + error.what() : error.what() + std::string(kGoesOn),
+                 images_.size());
+    return;
+  }
+  if (const auto num_waited = EndTrouble(&image_trouble_)) {
+    ROS_INFO("images are taken up again, going on: %zu images were waiting", *num_waited);
   }
 }
 
 void CameraIngest::Enqueue(const TakenPhoto& photo) {
-  ROS_INFO("photo %u: %s", photo.sequence, photo.name.c_str());
+  const bool is_renamed = photo.source != photo.name;
+  ROS_INFO("photo %u: %s%s",
+           photo.sequence,
+           photo.name.c_str(),
+           is_renamed ? (", from " + photo.source).c_str() : "");
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    trouble_.clear();
     window_.Add(photo.sequence);
   }
   SendDue();
+}
+
+void CameraIngest::BeginTrouble(Trouble* trouble,
+                                const std::string& text,
+                                std::size_t num_waiting) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (trouble->Set(text, num_waiting, SteadySeconds())) ROS_ERROR("%s", text.c_str());
+}
+
+std::optional<std::size_t> CameraIngest::EndTrouble(Trouble* trouble) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return trouble->Clear();
 }
 
 void CameraIngest::OnCameraInfo(const sensor_msgs::CameraInfo& msg) {
@@ -174,7 +260,7 @@ void CameraIngest::OnCameraInfo(const sensor_msgs::CameraInfo& msg) {
     }
     SetCamera(camera);
   } catch (const std::exception& error) {
-    ROS_ERROR_THROTTLE(5.0, "%s", error.what());
+    ROS_ERROR_THROTTLE(kComplainEvery_s, "%s", error.what());
   }
 }
 
@@ -186,7 +272,7 @@ void CameraIngest::OnImage(const sensor_msgs::ImageConstPtr& msg) {
     const auto image = cv_bridge::toCvShare(msg, is_color ? "bgr8" : "mono8");
     cv::imencode(".png", image->image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 1});
   } catch (const std::exception& error) {  // cv_bridge's, OpenCV's and image_encodings' own.
-    ROS_ERROR_THROTTLE(5.0, "image dropped: %s", error.what());
+    ROS_ERROR_THROTTLE(kComplainEvery_s, "image dropped: %s", error.what());
     return;
   }
   TakeFromTopic(std::to_string(msg->header.stamp.toNSec()) + ".png", msg->header.stamp, bytes);
@@ -247,7 +333,7 @@ void CameraIngest::Send(std::uint32_t sequence) {
   try {
     wire.bytes = intake_.ReadBytes(photo);
   } catch (const std::runtime_error& error) {
-    ROS_ERROR_THROTTLE(5.0, "%s", error.what());
+    ROS_ERROR_THROTTLE(kComplainEvery_s, "%s", error.what());
     return;  // It is sent again.
   }
   photo_publisher_.publish(ToPhotoMsg(wire, ToCameraInfoMsg(*camera_), options_.camera_frame_id));
@@ -256,17 +342,15 @@ void CameraIngest::Send(std::uint32_t sequence) {
 void CameraIngest::Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const std::lock_guard<std::mutex> lock(mutex_);
   using diagnostic_msgs::DiagnosticStatus;
-  if (!trouble_.empty()) {
-    status.summary(DiagnosticStatus::ERROR, trouble_);
-  } else if (is_folder_gone_) {
-    status.summary(DiagnosticStatus::ERROR, "the folder " + options_.photos_folder + " is gone");
-  } else if (!camera_) {
-    status.summary(DiagnosticStatus::WARN, "no camera_info was heard yet");
-  } else if (!IsHeard()) {
-    status.summary(DiagnosticStatus::WARN, "nobody listens to the photos yet");
-  } else {
-    status.summary(DiagnosticStatus::OK, "ok");
+  status.summary(DiagnosticStatus::OK, "ok");
+  for (const Trouble* trouble : {&image_trouble_, &file_trouble_, &folder_trouble_}) {
+    if (!trouble->text().empty()) status.mergeSummary(DiagnosticStatus::ERROR, trouble->text());
   }
+  if (!camera_) status.mergeSummary(DiagnosticStatus::WARN, "no camera_info was heard yet");
+  if (!IsHeard()) status.mergeSummary(DiagnosticStatus::WARN, "nobody listens to the photos yet");
+  for (const std::string& folder : folders_) status.add("photos in", folder);
+  status.add("images waiting for the disk", images_.size());
+  status.add("images lost", num_images_lost_);
   status.add("photos waiting", window_.num_waiting());
   status.add("photos in flight", window_.num_in_flight());
   status.add("photos sent again", window_.num_sent_again());

@@ -11,9 +11,11 @@
 #include <sensor_msgs/Image.h>
 
 #include <atomic>
+#include <deque>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -23,6 +25,7 @@
 #include "ros/folder_watcher.h"
 #include "ros/photo_intake.h"
 #include "ros/send_window.h"
+#include "ros/trouble.h"
 
 namespace plumb::ros_adapter {
 
@@ -32,7 +35,7 @@ namespace plumb::ros_adapter {
 class CameraIngest {
  public:
   // Throws naming the file and field if the camera is wrong or not the session's, the folder cannot
-  // be watched or the session not written.
+  // be read or the session not written. A folder that is not there yet is waited for.
   CameraIngest(const ros::NodeHandle& handle, const CameraIngestOptions& options);
   ~CameraIngest();
 
@@ -44,18 +47,35 @@ class CameraIngest {
   void SetCamera(const Camera& camera);
   void Subscribe();
 
+  // Of the watching thread.
   void WatchFolder();
-  bool TakeFile(const std::string& name);
+  void NoteFolder();
+  void TakeFiles(std::vector<std::string>* names);
+  void TakeFile(const std::string& name);
+
+  // Of the callbacks, one at a time.
   void TakeFromTopic(const std::string& source,
                      const ros::Time& stamp,
                      const std::vector<std::uint8_t>& bytes);
+  void TakeImages();
+
   void Enqueue(const TakenPhoto& photo);
+  void BeginTrouble(Trouble* trouble, const std::string& text, std::size_t num_waiting);
+
+  // The most photos that waited, if there was this trouble.
+  std::optional<std::size_t> EndTrouble(Trouble* trouble);
 
   void OnCameraInfo(const sensor_msgs::CameraInfo& msg);
   void OnImage(const sensor_msgs::ImageConstPtr& msg);
   void OnCompressedImage(const sensor_msgs::CompressedImage& msg);
   void OnVerdict(const plumbline::PhotoVerdict& msg);
   void OnStoredPhotos(const plumbline::StoredPhotos& msg);
+
+  struct TopicImage {
+    std::string source;
+    Timestamp exposure_time;
+    std::vector<std::uint8_t> bytes;
+  };
 
   bool IsHeard() const;
 
@@ -76,10 +96,16 @@ class CameraIngest {
   std::optional<Camera> camera_;
   SendWindow window_;
   ros::Time mapper_started_;
-  std::string trouble_;  // What keeps photos from being taken up; empty if nothing.
+  Trouble folder_trouble_;
+  Trouble file_trouble_;
+  Trouble image_trouble_;
+  std::set<std::string> folders_;  // Those photos were found in.
+
+  std::deque<TopicImage> images_;  // To be taken up; of the callbacks.
+  std::size_t num_image_bytes_ = 0;
+  std::size_t num_images_lost_ = 0;
 
   std::unique_ptr<FolderWatcher> watcher_;  // Of the watching thread.
-  std::atomic<bool> is_folder_gone_{false};
   std::atomic<bool> is_stopping_{false};
   std::thread watching_;
 };

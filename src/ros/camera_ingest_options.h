@@ -11,6 +11,10 @@ struct CameraIngestOptions {
   // Where the camera leaves its photos; empty: no folder is watched.
   std::string photos_folder;
 
+  // Levels of sub-folders searched for photos. Three find those of a card by its root:
+  // DCIM/100MEDIA, DCIM/PANORAMA/100_0001. 0: the folder alone.
+  int max_subfolder_depth = 3;
+
   // Where the flight is kept: photos/ and photos.jsonl are written here.
   std::string session_folder;
 
@@ -52,6 +56,7 @@ struct CameraIngestOptions {
 template <typename Visitor>
 void VisitFields(CameraIngestOptions& options, Visitor&& visit) {
   visit("photos_folder", options.photos_folder);
+  visit("max_subfolder_depth", options.max_subfolder_depth);
   visit("session_folder", options.session_folder);
   visit("camera_file", options.camera_file);
   visit("image_topic", options.image_topic);

@@ -8,9 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <climits>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -31,6 +29,8 @@ constexpr std::chrono::milliseconds kRetryEvery{50};
 
 // Cameras may pad a JPEG after its end marker.
 constexpr std::streamoff kMaxPadding = 65536;
+
+bool IsHidden(const std::string& name) { return name.empty() || name.front() == '.'; }
 
 enum class End { kMissing, kPadded, kExact, kNotMarked };
 
@@ -53,22 +53,31 @@ End FindEnd(const std::string& path) {
 
 }  // namespace
 
-FolderWatcher::FolderWatcher(const std::string& folder, std::chrono::milliseconds untouched_for)
-    : folder_(folder), untouched_for_(untouched_for) {
+FolderWatcher::FolderWatcher(const std::string& folder, const WatchOptions& options)
+    : folder_(folder), options_(options) {
+  std::error_code error;
+  const fs::directory_iterator entries(folder, error);
+  is_watching_ = !error;
+  if (error == std::errc::not_a_directory) {
+    throw std::runtime_error(folder + ": is a file; name the folder the photos lie in");
+  }
+  if (error && error != std::errc::no_such_file_or_directory) {
+    throw std::runtime_error(folder + ": cannot be read: " + error.message() +
+                             "; make it readable for the user who starts this");
+  }
   inotify_ = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
-  if (inotify_ >= 0 && AddWatch()) return;
-  const std::string cause = std::strerror(errno);
-  if (inotify_ >= 0) close(inotify_);
-  throw std::runtime_error("cannot watch the folder " + folder + ": " + cause);
+  Watch("");
 }
 
-FolderWatcher::~FolderWatcher() { close(inotify_); }
+FolderWatcher::~FolderWatcher() {
+  if (inotify_ >= 0) close(inotify_);
+}
 
 // Adding the same folder again changes nothing; another one mounted in its place is new.
-bool FolderWatcher::AddWatch() {
-  const std::uint32_t events = IN_CLOSE_WRITE | IN_MOVED_TO | IN_ONLYDIR;
-  is_watching_ = inotify_add_watch(inotify_, folder_.c_str(), events) >= 0;
-  return is_watching_;
+void FolderWatcher::Watch(const std::string& prefix) {
+  const std::uint32_t events = IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE | IN_ONLYDIR;
+  const int watch = inotify_add_watch(inotify_, (folder_ + '/' + prefix).c_str(), events);
+  if (watch >= 0) prefix_of_watch_[watch] = prefix;
 }
 
 std::vector<std::string> FolderWatcher::Wait(std::chrono::milliseconds timeout) {
@@ -87,32 +96,59 @@ void FolderWatcher::WaitForEvents(std::chrono::milliseconds timeout) {
   pollfd descriptor{inotify_, POLLIN, 0};
   if (poll(&descriptor, 1, static_cast<int>(timeout.count())) <= 0) return;
   alignas(inotify_event) char buffer[16 * (sizeof(inotify_event) + NAME_MAX + 1)];
+  bool must_scan = false;
   for (ssize_t num = 0; (num = read(inotify_, buffer, sizeof buffer)) > 0;) {
     for (ssize_t at = 0; at < num;) {
       const auto* event = reinterpret_cast<const inotify_event*>(buffer + at);
-      if (event->len > 0) Look(event->name, /*is_closed=*/true);
-      if ((event->mask & IN_Q_OVERFLOW) != 0) Scan();
+      must_scan |= (event->mask & (IN_Q_OVERFLOW | IN_ISDIR)) != 0;
+      const bool is_closed = (event->mask & (IN_CLOSE_WRITE | IN_MOVED_TO)) != 0;
+      if (is_closed && event->len > 0) Look(prefix_of_watch_[event->wd] + event->name, true);
+      if ((event->mask & IN_IGNORED) != 0) prefix_of_watch_.erase(event->wd);
       at += static_cast<ssize_t>(sizeof(inotify_event) + event->len);
     }
   }
+  if (must_scan) Scan();
 }
 
 void FolderWatcher::Scan() {
-  AddWatch();
-  std::error_code error;
   std::vector<std::string> names;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder_, error)) {
-    names.push_back(entry.path().filename().string());
-  }
+  is_watching_ = List("", 0, &names);
   std::sort(names.begin(), names.end());
   for (const std::string& name : names) Look(name, /*is_closed=*/false);
   has_scanned_ = true;
   last_scan_ = Clock::now();
 }
 
+// The names in the sub-folder `prefix` and below; false if it cannot be read.
+bool FolderWatcher::List(const std::string& prefix, int depth, std::vector<std::string>* names) {
+  std::error_code error;
+  fs::directory_iterator entry(folder_ + '/' + prefix, error);
+  if (error) return false;
+  Watch(prefix);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    std::error_code ignored;  // What cannot be told is looked at as a file.
+    const std::string name = prefix + entry->path().filename().string();
+    if (entry->symlink_status(ignored).type() != fs::file_type::directory) {
+      names->push_back(name);
+    } else if (depth < options_.max_depth && IsSearched(name)) {
+      List(name + '/', depth + 1, names);
+    }
+  }
+  return true;
+}
+
+bool FolderWatcher::IsSearched(const std::string& name) const {
+  std::error_code ignored;
+  const fs::path path = folder_ + '/' + name;
+  return !IsHidden(path.filename().string()) && !fs::exists(path / "session.db", ignored) &&
+         !fs::equivalent(path, options_.excluded_folder, ignored);
+}
+
 void FolderWatcher::Look(const std::string& name, bool is_closed) {
   struct stat status {};
-  if (!IsPhotoName(name) || stat((folder_ + '/' + name).c_str(), &status) != 0) return;
+  if (!IsPhotoName(fs::path(name).filename().string()) ||
+      stat((folder_ + '/' + name).c_str(), &status) != 0)
+    return;
   if (!S_ISREG(status.st_mode)) return;
   const Stamp stamp{static_cast<std::uintmax_t>(status.st_size),
                     status.st_mtim.tv_sec * 1'000'000'000LL + status.st_mtim.tv_nsec};
@@ -126,6 +162,11 @@ void FolderWatcher::Look(const std::string& name, bool is_closed) {
   arrivals_.push_back(name);
 }
 
+void FolderWatcher::Forget(const std::string& name) {
+  candidates_.erase(name);
+  arrivals_.erase(std::remove(arrivals_.begin(), arrivals_.end(), name), arrivals_.end());
+}
+
 // How long ago a file was changed, by its own stamp.
 FolderWatcher::Clock::duration FolderWatcher::Age(const Stamp& stamp) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -135,7 +176,7 @@ FolderWatcher::Clock::duration FolderWatcher::Age(const Stamp& stamp) {
 }
 
 bool FolderWatcher::IsComplete(const std::string& name, const Candidate& candidate) const {
-  if (Clock::now() - candidate.since >= untouched_for_) return true;
+  if (Clock::now() - candidate.since >= options_.untouched_for) return true;
   const End end = FindEnd(folder_ + '/' + name);
   return candidate.is_closed ? end != End::kMissing : end == End::kExact;
 }

@@ -5,12 +5,14 @@
 #include <cmath>
 
 #include "plumbline/common/options.h"
+#include "ros/absolute_path.h"
 
 namespace plumb::ros_adapter {
 
 std::vector<std::string> MapperRosOptions::Problems() const {
   ProblemList problems;
   problems.Require(!session_folder.empty(), "session_folder", "given", session_folder);
+  RequireAbsolute("session_folder", session_folder, &problems);
   problems.Require(!map_frame_id.empty(), "map_frame_id", "given", map_frame_id);
   problems.Require(!camera_frame_id.empty() && camera_frame_id != map_frame_id,
                    "camera_frame_id",

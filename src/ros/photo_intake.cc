@@ -61,18 +61,42 @@ TakenPhoto FromJson(const json& line) {
   return photo;
 }
 
-[[noreturn]] void Fail(const std::string& what, const std::string& path) {
-  throw std::runtime_error(what + ' ' + path + ": " + std::strerror(errno));
+[[noreturn]] void FailToWrite(const std::string& path, int error) {
+  const bool is_full = error == ENOSPC || error == EDQUOT;
+  throw std::runtime_error(
+      path + ": cannot be written: " + std::strerror(error) +
+      (is_full ? "; free some space on this disk" : "; make it and its folder writable"));
+}
+
+Timestamp TimeOfChange(const std::string& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) {
+    throw UnreadablePhoto(path + ": cannot be read: " + std::strerror(errno));
+  }
+  return {status.st_mtim.tv_sec * 1'000'000'000LL + status.st_mtim.tv_nsec};
+}
+
+std::vector<std::uint8_t> ReadPhoto(const std::string& path) {
+  try {
+    return ReadFileBytes(path);
+  } catch (const std::runtime_error& error) {
+    throw UnreadablePhoto(error.what());
+  }
 }
 
 // Appends and waits until the disk has it.
 void AppendDurably(const std::string& path, const std::string& text) {
   const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-  if (file < 0) Fail("cannot open", path);
-  const bool is_written =
-      write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
-      fdatasync(file) == 0;
-  if (close(file) != 0 || !is_written) Fail("cannot write", path);
+  if (file < 0) FailToWrite(path, errno);
+  const ssize_t num_written = write(file, text.data(), text.size());
+  int error = 0;
+  if (num_written < 0 || fdatasync(file) != 0) {
+    error = errno;
+  } else if (num_written < static_cast<ssize_t>(text.size())) {
+    error = ENOSPC;
+  }
+  if (close(file) != 0 && error == 0) error = errno;
+  if (error != 0) FailToWrite(path, error);
 }
 
 }  // namespace
@@ -104,13 +128,12 @@ void PhotoIntake::ReadLedger() {
   if (begin < text.size()) std::filesystem::resize_file(ledger_path_, begin);
 }
 
-std::optional<TakenPhoto> PhotoIntake::TakeFile(const std::string& path) {
-  struct stat status {};
-  if (stat(path.c_str(), &status) != 0) Fail("cannot read", path);
-  const Timestamp changed{status.st_mtim.tv_sec * 1'000'000'000LL + status.st_mtim.tv_nsec};
-  const std::string source = std::filesystem::path(path).filename().string();
+std::optional<TakenPhoto> PhotoIntake::TakeFile(const std::string& folder,
+                                                const std::string& source) {
+  const std::string path = folder + '/' + source;
+  const Timestamp changed = TimeOfChange(path);
   if (IsKnown(source, changed)) return std::nullopt;
-  const std::vector<std::uint8_t> bytes = ReadFileBytes(path);
+  const std::vector<std::uint8_t> bytes = ReadPhoto(path);
   return Take(source, changed, ReadPhotoMetadata(bytes).exposure_time.value_or(changed), bytes);
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -15,11 +16,16 @@
 
 namespace plumb::ros_adapter {
 
+// A photo that cannot be read where the camera left it; others may well be.
+struct UnreadablePhoto : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 // What the session knows of a photo it has taken up, beside its bytes.
 struct TakenPhoto {
   std::uint32_t sequence = 0;
   std::string name;       // In the session's photos folder.
-  std::string source;     // As the camera called it.
+  std::string source;     // As the camera called it, with its sub-folders.
   Timestamp source_time;  // When the source was changed, for a file; else the stamp.
   Timestamp exposure_time;
   Timestamp received;
@@ -35,10 +41,11 @@ class PhotoIntake {
   // std::runtime_error naming the file if a line makes no sense or nothing can be written.
   explicit PhotoIntake(const std::string& session_folder);
 
-  // Takes up a photo from a file; nothing if it was taken up before, whole and unchanged. The
-  // time of exposure is that of EXIF, else the file's time of change.
-  // Throws std::runtime_error naming the file if it cannot be read or kept.
-  std::optional<TakenPhoto> TakeFile(const std::string& path);
+  // Takes up the photo `source` of a folder; nothing if it was taken up before, whole and
+  // unchanged. Two of the same name in two sub-folders are two photos. The time of exposure is that
+  // of EXIF, else the file's time of change.
+  // Throws UnreadablePhoto naming the file, std::runtime_error if it cannot be kept.
+  std::optional<TakenPhoto> TakeFile(const std::string& folder, const std::string& source);
 
   // The same from memory; `time` is that of the exposure.
   std::optional<TakenPhoto> TakeBytes(const std::string& source,

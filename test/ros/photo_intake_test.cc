@@ -25,7 +25,7 @@ class PhotoIntakeTest : public ::testing::Test {
                                  const std::string& name,
                                  const std::string& content) {
     card_.Write(name, content);
-    return intake->TakeFile(card_ / name);
+    return intake->TakeFile(card_.path(), name);
   }
 
   TemporaryFolder card_;
@@ -47,7 +47,7 @@ TEST_F(PhotoIntakeTest, CountsFromOneAndKeepsTheBytes) {
 TEST_F(PhotoIntakeTest, TakesTheSameFileOnlyOnce) {
   PhotoIntake intake(session_.path());
   EXPECT_TRUE(Take(&intake, "a.jpg", "one"));
-  EXPECT_FALSE(intake.TakeFile(card_ / "a.jpg"));
+  EXPECT_FALSE(intake.TakeFile(card_.path(), "a.jpg"));
   EXPECT_FALSE(Take(&intake, "a.jpg", "one"));  // Written again, the same bytes.
 }
 
@@ -60,6 +60,31 @@ TEST_F(PhotoIntakeTest, TakesOtherBytesOfTheSameNameAsAnotherPhoto) {
   EXPECT_NE(second->name, first->name);
   EXPECT_EQ(intake.ReadBytes(*first), Bytes("one"));
   EXPECT_EQ(intake.ReadBytes(*second), Bytes("another"));
+}
+
+TEST_F(PhotoIntakeTest, TakesPhotosOfTheSameNameAndTimeInTwoSubfoldersAsTwo) {
+  std::filesystem::create_directories(card_ / "100MEDIA");
+  std::filesystem::create_directories(card_ / "101MEDIA");
+  PhotoIntake intake(session_.path());
+  const auto first = Take(&intake, "100MEDIA/DJI_0001.JPG", "one");
+  card_.Write("101MEDIA/DJI_0001.JPG", "two");
+  std::filesystem::last_write_time(
+      card_ / "101MEDIA/DJI_0001.JPG",
+      std::filesystem::last_write_time(card_ / "100MEDIA/DJI_0001.JPG"));
+  const auto second = intake.TakeFile(card_.path(), "101MEDIA/DJI_0001.JPG");
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(first->name, "DJI_0001.JPG");
+  EXPECT_EQ(second->name, "DJI_0001_2.JPG");
+  EXPECT_EQ(second->source, "101MEDIA/DJI_0001.JPG");
+  EXPECT_EQ(intake.ReadBytes(*second), Bytes("two"));
+  EXPECT_FALSE(intake.TakeFile(card_.path(), "101MEDIA/DJI_0001.JPG"));
+}
+
+TEST_F(PhotoIntakeTest, TakesNoPhotoTwiceWhenItsFolderIsGivenInAnotherWay) {
+  std::filesystem::create_directories(card_ / "100MEDIA");
+  PhotoIntake intake(session_.path());
+  EXPECT_TRUE(Take(&intake, "100MEDIA/a.jpg", "one"));
+  EXPECT_FALSE(intake.TakeFile(card_ / "100MEDIA", "a.jpg"));
 }
 
 TEST_F(PhotoIntakeTest, TakesTheSameBytesUnderAnotherNameForTheMapperToJudge) {
@@ -75,7 +100,7 @@ TEST_F(PhotoIntakeTest, GoesOnAfterARestart) {
     before = *Take(&intake, "a.jpg", "one");
   }
   PhotoIntake intake(session_.path());
-  EXPECT_FALSE(intake.TakeFile(card_ / "a.jpg"));
+  EXPECT_FALSE(intake.TakeFile(card_.path(), "a.jpg"));
   ASSERT_EQ(intake.photos().size(), 1U);
   const TakenPhoto after = intake.photos()[0];
   EXPECT_EQ(after.sequence, before.sequence);
@@ -95,7 +120,7 @@ TEST_F(PhotoIntakeTest, ForgetsALineCutByACrashAndTakesThePhotoAgain) {
   {
     PhotoIntake intake(session_.path());
     EXPECT_EQ(intake.photos().size(), 1U);
-    const auto again = intake.TakeFile(card_ / "b.jpg");
+    const auto again = intake.TakeFile(card_.path(), "b.jpg");
     ASSERT_TRUE(again);
     EXPECT_EQ(again->sequence, 2U);
     EXPECT_EQ(again->name, "b.jpg");
@@ -116,9 +141,9 @@ TEST_F(PhotoIntakeTest, NamesTheLineThatMakesNoSense) {
 TEST_F(PhotoIntakeTest, NamesAFileThatIsGone) {
   PhotoIntake intake(session_.path());
   try {
-    intake.TakeFile(card_ / "gone.jpg");
+    intake.TakeFile(card_.path(), "gone.jpg");
     FAIL() << "nothing was thrown";
-  } catch (const std::runtime_error& error) {
+  } catch (const UnreadablePhoto& error) {
     EXPECT_THAT(error.what(), HasSubstr("gone.jpg"));
   }
 }

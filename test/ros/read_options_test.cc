@@ -106,6 +106,36 @@ TEST(CameraIngestOptions, ATopicMayBringItsOwnCameraInfo) {
   EXPECT_THAT(options.Problems(), IsEmpty());
 }
 
+TEST(CameraIngestOptions, RelativePathsAreRefusedWithWhatTheyWereMeantToBe) {
+  setenv("PWD", "/home/pilot", 1);
+  CameraIngestOptions options;
+  options.photos_folder = "card";
+  options.session_folder = "flights/12";
+  options.camera_file = "../camera.yaml";
+  EXPECT_THAT(options.Problems(),
+              ElementsAre(AllOf(HasSubstr("session_folder"), HasSubstr("/home/pilot/flights/12")),
+                          AllOf(HasSubstr("photos_folder"), HasSubstr("/home/pilot/card")),
+                          AllOf(HasSubstr("camera_file"), HasSubstr("/home/camera.yaml"))));
+}
+
+TEST(CameraIngestOptions, PhotosMustNotLieInTheSession) {
+  CameraIngestOptions options;
+  options.session_folder = "/flights/12";
+  options.camera_file = "/camera.yaml";
+  for (const char* folder : {"/flights/12", "/flights/12/photos/", "/flights/11/../12"}) {
+    options.photos_folder = folder;
+    EXPECT_THAT(options.Problems(), ElementsAre(HasSubstr("outside the session"))) << folder;
+  }
+  options.photos_folder = "/flights/123";
+  EXPECT_THAT(options.Problems(), IsEmpty());
+}
+
+TEST(MapperRosOptions, ARelativeSessionIsRefused) {
+  MapperRosOptions options;
+  options.session_folder = "flights/12";
+  EXPECT_THAT(options.Problems(), ElementsAre(HasSubstr("absolute path")));
+}
+
 TEST(MapperRosOptions, DefaultsNeedOnlyASession) {
   MapperRosOptions options;
   EXPECT_THAT(options.Problems(), ElementsAre(HasSubstr("session_folder")));
