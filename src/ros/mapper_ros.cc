@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "ros/camera_conversion.h"
+#include "ros/run_node.h"
 #include "ros/verdict_conversion.h"
 
 namespace plumb::ros_adapter {
@@ -89,6 +90,15 @@ void MapperRos::Start(const Camera& camera) {
            CountPhotos().num_accepted);
 }
 
+// The session is made with the first photo, whose camera it has.
+void MapperRos::StartWith(const Camera& camera) {
+  try {
+    Start(camera);
+  } catch (const std::runtime_error& error) {
+    throw IncurableError(error.what());
+  }
+}
+
 LiveMapperOutput MapperRos::MakeOutput() {
   LiveMapperOutput output;
   output.on_verdict = [this](const PhotoVerdict& verdict, const PhotoBytes& bytes) {
@@ -127,7 +137,7 @@ void MapperRos::OnPhoto(const plumbline::Photo& msg) {
     ROS_ERROR_THROTTLE(5.0, "%s dropped: %s", photo->name.c_str(), error.what());
     return;
   }
-  if (!live_) Start(*camera);
+  if (!live_) StartWith(*camera);
   if (!IsSameCamera(*camera, live_->camera())) return RefuseOtherCamera(*photo);
   const std::string name = photo->name;
   if (live_->Offer(std::move(*photo))) return;

@@ -35,6 +35,7 @@ class MapperRos {
 
  private:
   void Start(const Camera& camera);
+  void StartWith(const Camera& camera);
   LiveMapperOutput MakeOutput();
 
   // These throw what stopped the mapper.

@@ -3,10 +3,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A node with a wrong parameter or camera ends at once and names what is wrong."""
 
+import pathlib
+import subprocess
 import unittest
 
 import rospy
 import rostest
+from plumbline.msg import Photo, PhotoVerdict
 
 import wire
 
@@ -16,8 +19,8 @@ class StartTest(wire.FolderTest):
         """What a node says that must end by itself with a failure."""
         process = wire.start_node(name, "/start", **parameters)
         said, _ = process.communicate(timeout=wire.DEADLINE_S)
-        self.assertNotEqual(process.returncode, 0, said)
-        self.assertIn("FATAL", said)
+        self.assertEqual(process.returncode, wire.EX_CONFIG, said)
+        self.assertEqual(said.count("FATAL"), 1, said)
         return said
 
     def ingest(self, **parameters):
@@ -51,8 +54,13 @@ class StartTest(wire.FolderTest):
     def test_a_missing_session_is_named(self):
         self.assertIn("session_folder", self.end_of("mapper"))
 
-    def test_a_folder_that_is_not_there_is_named(self):
-        self.assertIn("/no/such/card", self.ingest(photos_folder="/no/such/card"))
+    def test_a_photos_folder_that_is_a_file_is_named(self):
+        self.assertIn("name the folder", self.ingest(photos_folder=self.camera))
+
+    def test_a_relative_path_is_refused_with_what_it_was_meant_to_be(self):
+        said = self.ingest(photos_folder="card")
+        self.assertIn("photos_folder", said)
+        self.assertIn(str(pathlib.Path.cwd() / "card"), said)
 
     def test_a_missing_camera_file_is_named(self):
         self.assertIn("/no/such/camera.yaml", self.ingest(camera_file="/no/such/camera.yaml"))
@@ -62,6 +70,36 @@ class StartTest(wire.FolderTest):
         said = self.ingest()
         self.assertIn(str(self.camera), said)
         self.assertIn("fx", said)
+
+    def test_a_session_that_another_mapper_writes_is_refused(self):
+        namespaces = ("/first", "/second")
+        mappers = [wire.start_node("mapper", name, session_folder=self.session)
+                   for name in namespaces]
+        for mapper in mappers:
+            self.addCleanup(lambda mapper=mapper: mapper.poll() is None and wire.end(mapper))
+        photo = wire.photo_message(1, "a.jpg", b"no photo")
+        for mapper, name in zip(mappers, namespaces):
+            verdicts = wire.Heard(f"{name}/photo_verdict", PhotoVerdict)
+            photos = rospy.Publisher(f"{name}/photo", Photo, queue_size=1, latch=True)
+            photos.publish(photo)
+            if mapper is mappers[0]:
+                verdicts.wait(len, "a verdict")
+            self.addCleanup(verdicts.close)
+        said, _ = mappers[1].communicate(timeout=wire.DEADLINE_S)
+        self.assertEqual(mappers[1].returncode, wire.EX_CONFIG, said)
+        self.assertIn("another program writes this session", said)
+
+    def test_roslaunch_ends_after_an_error_that_a_restart_cannot_cure(self):
+        launch = subprocess.run(
+            ["roslaunch", "--no-summary", "plumbline", "flight.launch", "rviz:=false",
+             f"photos:={self.card}", f"session:={self.session}", "camera:=/no/such/camera.yaml"],
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+            timeout=wire.DEADLINE_S, check=False)
+        self.assertEqual(launch.stdout.count("FATAL"), 1, launch.stdout)
+        self.assertIn("/no/such/camera.yaml", launch.stdout)
+
+    def test_a_name_with_an_umlaut_is_shown_as_it_is(self):
+        self.assertIn("/no/such/Türme.yaml", self.ingest(camera_file="/no/such/Türme.yaml"))
 
     def test_another_camera_than_the_sessions_is_refused(self):
         self.session.mkdir()

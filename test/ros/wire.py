@@ -12,8 +12,12 @@ import threading
 import unittest
 
 import rospy
+from plumbline.msg import Photo
+from sensor_msgs.msg import CameraInfo
 
 DEADLINE_S = 60.0
+
+EX_CONFIG = 78  # Of a node that another start would not cure.
 
 CAMERA_YAML = """\
 image_width: 64
@@ -71,6 +75,15 @@ def start_node(name, namespace, **parameters):
     arguments = [f"_{key}:={value}" for key, value in parameters.items()]
     return subprocess.Popen(["rosrun", "plumbline", name, f"__ns:={namespace}"] + arguments,
                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+
+def photo_message(sequence, name, data):
+    """A photo of the tiny camera, as camera_ingest sends it."""
+    message = Photo(sequence=sequence, name=name)
+    message.image.data = data
+    message.camera_info = CameraInfo(width=64, height=48, distortion_model="plumb_bob",
+                                     D=[0.0] * 5, K=[60.0, 0, 31.5, 0, 60.0, 23.5, 0, 0, 1])
+    return message
 
 
 def end(process):
