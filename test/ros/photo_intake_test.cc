@@ -74,7 +74,7 @@ TEST_F(PhotoIntakeTest, TakesPhotosOfTheSameNameAndTimeInTwoSubfoldersAsTwo) {
   const auto second = intake.TakeFile(card_.path(), "101MEDIA/DJI_0001.JPG");
   ASSERT_TRUE(first && second);
   EXPECT_EQ(first->name, "DJI_0001.JPG");
-  EXPECT_EQ(second->name, "DJI_0001_2.JPG");
+  EXPECT_EQ(second->name, "101MEDIA_DJI_0001.JPG");
   EXPECT_EQ(second->source, "101MEDIA/DJI_0001.JPG");
   EXPECT_EQ(intake.ReadBytes(*second), Bytes("two"));
   EXPECT_FALSE(intake.TakeFile(card_.path(), "101MEDIA/DJI_0001.JPG"));
