@@ -24,11 +24,10 @@ def read_structs():
     structs = {}
     for header in sorted(SOURCE.glob("include/plumbline/**/*.h")) + sorted(
             SOURCE.glob("src/ros/*.h")):
-        fields, comment, above = None, [], ""
+        fields, comment = None, []
         for line in header.read_text().splitlines():
             if match := STRUCT.match(line):
                 fields, comment = structs.setdefault(match[1], {}), []
-                above = ""
             elif line.startswith("}"):
                 fields = None
             elif fields is None:
@@ -40,10 +39,10 @@ def read_structs():
                 fields[last] = (fields[last][0], fields[last][1] + " " + line.strip(" /"))
             elif (match := FIELD.match(line)) and "(" not in line.split("=")[0].split("//")[0]:
                 text = " ".join(comment + ([match[3]] if match[3] else []))
-                fields[match[2]] = (match[1], text or above)
-                above, comment = fields[match[2]][1], []
+                fields[match[2]] = (match[1], text)
+                comment = []
             elif not line.strip():
-                above, comment = "", []  # A comment is for all fields up to the next blank line.
+                comment = []  # A comment is for the field right below it.
     return structs
 
 
@@ -56,7 +55,7 @@ def rows_of(structs, struct, values, prefix, missing):
             rows += rows_of(structs, kind, value, f"{prefix}{name}/", missing)
             continue
         if not comment:
-            missing.append(f"{struct}::{name} has no comment")
+            missing.append(f"{struct}::{name} has no comment of its own")
         kind = {"std::string": "text"}.get(kind, kind)
         shown = f"`{json.dumps(value)}`"
         rows.append(f"| `{prefix}{name}` | {kind} | {shown} | {comment.replace('|', chr(92) + '|')} |")

@@ -22,9 +22,10 @@ struct FeatureOptions {
   // Bound on the ratio of the principal curvatures (Lowe, IJCV 2004, section 4.1).
   double max_edge_ratio = 10.0;
 
-  // The search begins at the coarsest resolution that has this many pixels a feature wanted,
-  // and a finer one is added as long as less than min_fill of the features are found.
+  // The search begins at the coarsest resolution that has this many pixels a feature wanted.
   double pixels_per_feature = 300.0;
+
+  // A finer resolution is added as long as less than this part of the features wanted is found.
   double min_fill = 0.9;
 
   // No finer octave is searched than of this size, for its cost grows with its pixels.

@@ -12,24 +12,30 @@ struct RetrievalOptions {
   // trained on the session's own descriptors.
   std::string vocabulary_path;
 
-  // Children of a node and levels of the tree: at most branching^depth words.
+  // Children of a node of the tree, which has at most branching^depth words.
   int branching = 10;
+
+  // Levels of the tree below its root.
   int depth = 4;
 
   // Rounds of k-means at each node.
   int num_iterations = 8;
 
-  // Training starts when so many photos have been added, on at most so many of their descriptors.
+  // Training starts when so many photos have been added.
   int num_training_photos = 10;
+
+  // At most so many descriptors of these photos are trained on.
   int max_training_descriptors = 50000;
 
   // While there is no tree: so many of the largest features are compared with those of each photo.
   int num_compared_features = 800;
 
-  // True: the tree is taken in when this many more photos have been added after the training
-  // began, waiting for it if need be, so that results never depend on timing. False: as soon as it
-  // is ready.
+  // True: the tree is taken in after a fixed number of photos, waiting for it if need be, so that
+  // results never depend on timing. False: as soon as it is ready.
   bool deterministic = false;
+
+  // If deterministic, the tree is taken in when this many more photos have been added after the
+  // training began.
   int num_photos_until_trained = 2;
 
   // Seed of the training: the same descriptors and seed give the same tree.

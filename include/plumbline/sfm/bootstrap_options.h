@@ -31,8 +31,10 @@ struct BootstrapOptions {
   // Each new photo is paired with at most this many earlier ones.
   int max_partners = 8;
 
-  // Of RANSAC for each pair. Equal input and seed give equal pairs.
+  // RANSAC tries at most this many samples for each pair.
   int max_iterations = 2000;
+
+  // Seed of RANSAC: equal input and seed give equal pairs.
   int random_seed = 1;
 
   std::vector<std::string> Problems() const;

@@ -20,8 +20,10 @@ struct BundleOptions {
   // At most this many landmarks enter a local bundle, those with the longest tracks first.
   int max_local_landmarks = 3000;
 
-  // Steps of Levenberg-Marquardt; most bundles converge in fewer.
+  // Steps of Levenberg-Marquardt of a local bundle at most; most converge in fewer.
   int max_local_iterations = 8;
+
+  // Steps of Levenberg-Marquardt of a global bundle at most; most converge in fewer.
   int max_global_iterations = 20;
 
   // Stop when an iteration lowers the cost by less than this fraction. A thousand times less
@@ -35,9 +37,14 @@ struct BundleOptions {
   // Offline, a background bundle is taken in this many photos after its start.
   int global_latency_photos = 2;
 
-  // Refine the lens that all photos share, or hold it as calibrated.
+  // Global bundles refine the focal lengths fx and fy that all photos share, or hold them as
+  // calibrated.
   bool refine_focal_length = false;
+
+  // Global bundles refine the principal point cx, cy, or hold it as calibrated.
   bool refine_principal_point = false;
+
+  // Global bundles refine the distortion k1 to k3, p1 and p2, or hold it as calibrated.
   bool refine_distortion = false;
 
   // More threads than one make a solve depend on timing in its last digits.

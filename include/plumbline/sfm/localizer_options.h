@@ -34,18 +34,26 @@ struct LocalizerOptions {
   // the photo ambiguous.
   double max_second_pose_ratio = 0.5;
 
-  // Poses closer than this are the same place: angle, and distance relative to the median depth.
+  // Poses are the same place if they differ by less than this angle, and are as near as below.
   double same_pose_angle_deg = 3.0;
+
+  // Poses are the same place if their distance is less than this part of the median depth, and
+  // their angle is as small as above.
   double same_pose_distance_ratio = 0.1;
 
   // Once a pose is known, landmarks are searched within this radius of where they must be [px].
   double guided_radius_px = 8.0;
 
-  // RANSAC ends once a better pose would have been found with this confidence, within these
-  // bounds. Equal input and seed give equal poses.
+  // RANSAC ends once a better pose would have been found with this confidence.
   double confidence = 0.9999;
+
+  // RANSAC tries at least this many samples.
   int min_iterations = 50;
+
+  // RANSAC tries at most this many samples, whatever its confidence.
   int max_iterations = 3000;
+
+  // Seed of RANSAC: equal input and seed give equal poses.
   int random_seed = 1;
 
   std::vector<std::string> Problems() const;
