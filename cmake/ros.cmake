@@ -45,7 +45,8 @@ if(TARGET plumbline_tool)
 endif()
 
 install(TARGETS ${programs} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
-install(PROGRAMS scripts/fly_photos.py scripts/keep_running.sh scripts/record_flight.sh
+install(PROGRAMS scripts/fly_photos.py scripts/keep_running.sh
+        scripts/play_flight.sh scripts/record_flight.sh
         DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY config launch rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 

@@ -6,6 +6,9 @@
 set -euo pipefail
 session=$1
 shift
+if [[ $session != /* ]]; then
+  exit 78  # The nodes say so.
+fi
 mkdir -p "$session"
 if [[ -e $session/flight.bag ]]; then
   number=1

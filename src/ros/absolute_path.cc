@@ -10,9 +10,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of the shell that called roslaunch, which hands on this variable.
+// Of the shell that called roslaunch; the launch files hand it on.
 fs::path FolderOfTheUser() {
-  const char* folder = std::getenv("PWD");
+  const char* folder = std::getenv("PLUMBLINE_CALLED_FROM");
   if (folder != nullptr && fs::path(folder).is_absolute()) return folder;
   std::error_code ignored;
   return fs::current_path(ignored);

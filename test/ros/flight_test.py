@@ -20,6 +20,10 @@ import wire
 
 NUM_PHOTOS = 4
 
+REASON_OF_BAD_FILE = {"empty.jpg": "undecodable", "text.jpg": "undecodable",
+                      "again.jpg": "duplicate", "cut.jpg": "undecodable",
+                      "dot.png": "wrong_size", "small.jpg": "wrong_size"}
+
 
 def latest(verdicts):
     """Status and reason of each photo by its latest verdict."""
@@ -71,7 +75,8 @@ class FlightTest(wire.FolderTest):
     def setUp(self):
         scene = wire.shared_data("fountain-P11")
         super().setUp()
-        self.source = sorted((scene / "photos").iterdir())[:NUM_PHOTOS]
+        photos = sorted((scene / "photos").iterdir())
+        self.source, self.others = photos[:NUM_PHOTOS], photos[NUM_PHOTOS:]
         self.camera = scene / "camera.yaml"
         self.verdicts = wire.Heard("/plumbline/photo_verdict", PhotoVerdict)
         self.deltas = wire.Heard("/plumbline/map_delta", MapDelta)
@@ -108,6 +113,20 @@ class FlightTest(wire.FolderTest):
             return all(verdicts.get(name) == ("accepted", "none") for name in names)
         return self.verdicts.wait(all_accepted, f"'accepted' of {sorted(names)}")
 
+    def leave_converted(self, photo, name, *options):
+        """Leaves a photo as ImageMagick makes it of another."""
+        made = self.folder / name
+        subprocess.run(["convert", str(photo), *options, str(made)], check=True)
+        made.rename(self.card / name)
+
+    def leave_odd_photos(self):
+        self.leave("cut.jpg", self.others[0].read_bytes()[:500000])
+        self.leave_converted(self.source[0], "dot.png", "-resize", "1x1!")
+        self.leave_converted(self.source[0], "small.jpg", "-resize", "50%")
+        self.leave_converted(self.others[0], "grey.jpg", "-colorspace", "Gray")
+        self.leave_converted(self.others[1], "deep.png", "-colorspace", "Gray", "-quality", "10",
+                             "-define", "png:bit-depth=16")
+
     def leave_photos_and_bad_files(self):
         self.leave("empty.jpg", b"")
         self.leave("text.jpg", b"this is no photo")
@@ -115,18 +134,18 @@ class FlightTest(wire.FolderTest):
             self.leave(photo.name, photo.read_bytes())
             self.wait_for_verdicts([photo.name])
         self.leave("again.jpg", self.source[0].read_bytes())
+        self.leave_odd_photos()
 
     def test_verdicts_deltas_and_snapshot_agree_and_a_replay_gives_the_same(self):
         flight = self.fly(record="true")
         self.leave_photos_and_bad_files()
-        names = [photo.name for photo in self.source]
+        names = [photo.name for photo in self.source] + ["grey.jpg", "deep.png"]
         self.wait_for_accepted(names)
-        self.wait_for_verdicts(["empty.jpg", "text.jpg", "again.jpg"])
-        rospy.ServiceProxy("/plumbline/finish", Trigger)()
+        self.wait_for_verdicts(REASON_OF_BAD_FILE)
+        self.assertTrue(rospy.ServiceProxy("/plumbline/finish", Trigger)().success)
         verdicts = latest(self.verdicts.all())
-        self.assertEqual(verdicts["empty.jpg"], ("refused", "undecodable"))
-        self.assertEqual(verdicts["text.jpg"], ("refused", "undecodable"))
-        self.assertEqual(verdicts["again.jpg"], ("refused", "duplicate"))
+        for name, reason in REASON_OF_BAD_FILE.items():
+            self.assertEqual(verdicts[name], ("refused", reason), name)
         self.assertTrue((self.session / "report.json").exists())
 
         snapshot = rospy.ServiceProxy("/plumbline/get_map", GetMap)().snapshot

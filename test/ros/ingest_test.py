@@ -93,6 +93,27 @@ class IngestTest(wire.FolderTest):
         self.stored.publish(StoredPhotos(mapper_started=rospy.Time(6), sequences=[]))
         self.photos.wait(lambda photos: len(photos) > num_before, "photo 1 again")
 
+    def test_a_card_works_by_its_root_and_may_be_put_in_later_and_pulled(self):
+        self.card.rmdir()
+        node = self.start()
+        diagnostics = wire.Diagnostics()
+        self.addCleanup(diagnostics.close)
+        diagnostics.wait_for_error("Put the card in")
+        for folder, content in (("100MEDIA", b"one"), ("101MEDIA", b"two")):
+            (self.card / "DCIM" / folder).mkdir(parents=True)
+            (self.card / "DCIM" / folder / "DJI_0001.JPG").write_bytes(wire.JPEG + content +
+                                                                      b"\xff\xd9")
+        self.wait_for_sequence(2)
+        self.assertEqual({photo.name for photo in self.photos.all()},
+                         {"DJI_0001.JPG", "101MEDIA_DJI_0001.JPG"})
+        self.card.rename(self.folder / "pulled")
+        diagnostics.wait_for_error("Put the card in")
+        (self.folder / "pulled").rename(self.card)
+        diagnostics.wait_for_no_error()
+        said = wire.end(node)
+        self.assertEqual(said.count("ERROR"), 2, said)
+        self.assertEqual(said.count("the folder is there now"), 2, said)
+
     def test_a_file_is_not_taken_before_it_is_complete(self):
         self.start(untouched_for_s=1000.0)
         with open(self.card / "slow.jpg", "wb") as file:

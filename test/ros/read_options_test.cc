@@ -107,7 +107,7 @@ TEST(CameraIngestOptions, ATopicMayBringItsOwnCameraInfo) {
 }
 
 TEST(CameraIngestOptions, RelativePathsAreRefusedWithWhatTheyWereMeantToBe) {
-  setenv("PWD", "/home/pilot", 1);
+  setenv("PLUMBLINE_CALLED_FROM", "/home/pilot", 1);
   CameraIngestOptions options;
   options.photos_folder = "card";
   options.session_folder = "flights/12";

@@ -12,6 +12,7 @@ import threading
 import unittest
 
 import rospy
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from plumbline.msg import Photo
 from sensor_msgs.msg import CameraInfo
 
@@ -68,6 +69,27 @@ class Heard:
 
     def close(self):
         self._subscriber.unregister()
+
+
+class Diagnostics(Heard):
+    """What /diagnostics says from now on."""
+
+    def __init__(self):
+        super().__init__("/diagnostics", DiagnosticArray)
+        self._num_known = 0
+
+    def _wait_for_news(self, is_it, what):
+        def is_heard(messages):
+            return any(is_it(status) for message in messages[self._num_known:]
+                       for status in message.status)
+        self._num_known = len(self.wait(is_heard, what))
+
+    def wait_for_error(self, text):
+        self._wait_for_news(lambda status: status.level == DiagnosticStatus.ERROR and
+                            text in status.message, f"an ERROR with '{text}'")
+
+    def wait_for_no_error(self):
+        self._wait_for_news(lambda status: status.level != DiagnosticStatus.ERROR, "no ERROR")
 
 
 def start_node(name, namespace, **parameters):
