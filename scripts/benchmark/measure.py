@@ -1,0 +1,26 @@
+# SPDX-FileCopyrightText: 2026 The Plumbline authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Running and timing programs."""
+import resource
+import subprocess
+import sys
+import time
+
+
+def log(text):
+    print(text, file=sys.stderr, flush=True)
+
+
+def run_timed(command, log_path, environment=None):
+    """Wall and CPU seconds and peak memory of a command; its output goes to `log_path`."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    start = time.monotonic()
+    with open(log_path, "a") as output:
+        output.write("$ %s\n" % " ".join(command))
+        output.flush()
+        code = subprocess.call(command, stdout=output, stderr=subprocess.STDOUT,
+                               env=environment)
+    wall_s = time.monotonic() - start
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    cpu_s = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return {"exit_code": code, "wall_s": wall_s, "cpu_s": cpu_s}
