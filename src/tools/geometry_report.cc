@@ -33,7 +33,9 @@ Json ToJson(const SharesWithin& shares) {
   return json;
 }
 
+// Null of no points: 0 mm would say that they fit.
 Json ToJson(const DistanceSummary& summary) {
+  if (summary.num_points == 0) return nullptr;
   return {{"points", summary.num_points},
           {"mean_mm", summary.mean_mm},
           {"median_mm", summary.median_mm},
@@ -62,9 +64,10 @@ Json ToJson(const WallBend& wall) {
 }
 
 Json Compare(const DistanceSummary& accuracy, const DistanceSummary& completeness) {
+  const bool has_both = accuracy.num_points != 0 && completeness.num_points != 0;
   return {{"accuracy", ToJson(accuracy)},
           {"completeness", ToJson(completeness)},
-          {"f_score", ToJson(FScore(accuracy, completeness))}};
+          {"f_score", has_both ? ToJson(FScore(accuracy, completeness)) : Json(nullptr)}};
 }
 
 // Of the truth that can have been reconstructed, how far the reconstruction is.
