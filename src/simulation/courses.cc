@@ -87,10 +87,10 @@ void AddModillions(const Site& site, double width_m, double foot_m) {
   for (int k = 0; k < num_dentils; ++k) {
     const double x = (k + 0.5) * dentil_m;
     AddBox(site.builder,
-           {x - 0.3 * dentil_m, -0.13, foot_m - 0.09},
+           {x - 0.3 * dentil_m, -0.1, foot_m - 0.09},
            {x + 0.3 * dentil_m, kEmbedded_m, foot_m + 0.01},
            site.palette.trim,
-           {true, false, true, true, false});
+           {true, false, true, true, true});
   }
 }
 

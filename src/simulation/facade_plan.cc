@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulation/hash_random.h"
+#include "simulation/random_numbers.h"
 
 namespace plumb {
 namespace {
@@ -16,15 +16,16 @@ constexpr double kSillShare = 0.42;         // Of the height that the window lea
 constexpr double kBalconyThreshold_m = 0.12;
 constexpr double kBaySlack = 0.1;     // Bays may be narrower than asked by less than a tenth.
 constexpr int kPlainWindowEvery = 4;  // A plain storey has few windows.
-constexpr std::uint64_t kBayKey = 201;
+constexpr std::uint64_t kKindKey = 201;
 constexpr std::uint64_t kStoreyKey = 202;
-constexpr std::uint64_t kCopyKey = 1000000000;  // Beyond the keys of the unique bays.
+constexpr std::uint64_t kCopyKey = 203;
+constexpr std::uint64_t kFirstCopyKey = 1000000000;  // Beyond the keys of the unique bays.
 
 // With repetition, storeys take the look of the first upper storey.
 std::vector<StoreyStyle> RepeatStyles(const FacadeOptions& options) {
   std::vector<StoreyStyle> styles = DrawStoreyStyles(options);
   for (std::size_t storey = 2; storey < styles.size(); ++storey) {
-    HashRandom random{options.seed, kStoreyKey, storey};
+    RandomNumbers random(DeriveSeed(options.seed, kStoreyKey, storey));
     const bool is_plain = styles[storey].wall == WallKind::kPlain;
     if (!is_plain && random.Chance(options.repetition)) styles[storey] = styles[1];
   }
@@ -63,8 +64,9 @@ WallRect OpeningOf(const FacadeOptions& options, const BayPlan& bay) {
   return MakeRect(middle - half, sill, middle + half, head);
 }
 
-BayKind DrawKind(const FacadeOptions& options, const WallPlan& wall, int storey, int bay) {
-  HashRandom random{options.seed, kBayKey, static_cast<std::uint64_t>(storey * 1000 + bay)};
+BayKind DrawKind(
+    const FacadeOptions& options, const WallPlan& wall, int storey, int bay, std::uint64_t key) {
+  RandomNumbers random(DeriveSeed(options.seed, kKindKey, key));
   const auto num_bays = static_cast<int>(wall.bay_edges_m.size()) - 1;
   if (storey == 0 && wall.is_main && IsDoor(options, bay, num_bays)) return BayKind::kDoor;
   if (storey > 0 && random.Chance(options.balcony_share)) return BayKind::kBalcony;
@@ -86,10 +88,11 @@ BayPlan PlanBay(const FacadePlan& plan, const WallPlan& wall, std::size_t storey
   } else if (style.wall == WallKind::kPlain) {
     if (bay % kPlainWindowEvery == 1) result.kind = BayKind::kWindow;
   } else {
-    result.kind = DrawKind(options, wall, static_cast<int>(storey), static_cast<int>(bay));
+    result.kind =
+        DrawKind(options, wall, static_cast<int>(storey), static_cast<int>(bay), result.random_key);
   }
   if (result.kind != BayKind::kBlank) result.opening = OpeningOf(options, result);
-  HashRandom random{options.seed, kBayKey, 1, result.random_key};
+  RandomNumbers random(DeriveSeed(options.seed, kCopyKey, result.random_key));
   const bool is_copy = random.Chance(options.repetition);
   const bool alternates = !is_copy && bay % 2 == 1;
   result.hood = alternates ? style.look.alternate_hood : style.look.hood;
@@ -98,7 +101,7 @@ BayPlan PlanBay(const FacadePlan& plan, const WallPlan& wall, std::size_t storey
                       std::to_string(static_cast<int>(result.kind)) + '/' +
                       std::to_string(static_cast<int>(result.hood)) + '/' +
                       std::to_string(std::lround(1e4 * result.cell.sizes().x()));
-    result.random_key = kCopyKey + static_cast<std::uint64_t>(style.id);
+    result.random_key = kFirstCopyKey + static_cast<std::uint64_t>(style.id);
   }
   return result;
 }

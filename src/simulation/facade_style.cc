@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulation/hash_random.h"
+#include "simulation/random_numbers.h"
 
 namespace plumb {
 namespace {
 
-// Keys of HashRandom: what is drawn.
+// What is drawn: uses of DeriveSeed.
 constexpr std::uint64_t kColorKey = 101;
 constexpr std::uint64_t kStyleKey = 102;
 
@@ -63,7 +63,7 @@ Eigen::Vector3f DrawPlasterColor(const FacadeOptions& options) {
                                                          Eigen::Vector3f(0.46F, 0.48F, 0.40F),
                                                          Eigen::Vector3f(0.54F, 0.37F, 0.29F),
                                                          Eigen::Vector3f(0.50F, 0.49F, 0.46F)};
-  HashRandom random{options.seed, kColorKey};
+  RandomNumbers random(DeriveSeed(options.seed, kColorKey, 0));
   return kColors[static_cast<std::size_t>(random.Index(static_cast<int>(kColors.size())))];
 }
 
@@ -82,7 +82,7 @@ void AddWallMaterials(PaletteMaker& maker, const Eigen::Vector3f& plaster, Palet
   palette.plain = maker.Add(plain);
 }
 
-void AddJoinery(PaletteMaker& maker, HashRandom& random, Palette& palette) {
+void AddJoinery(PaletteMaker& maker, RandomNumbers& random, Palette& palette) {
   const Eigen::Vector2f boards_m(0.11F, 2.4F);
   palette.frame = maker.Add(
       MakeElements(Pattern::kWood, {0.62F, 0.60F, 0.54F}, 0.08F, {3.0F, 3.0F}, 0.0F, 0.0F));
@@ -130,7 +130,7 @@ std::vector<bool> PlainStoreys(const FacadeOptions& options) {
   return is_plain;
 }
 
-WindowLook DrawLook(HashRandom& random, int storey, int num_storeys) {
+WindowLook DrawLook(RandomNumbers& random, int storey, int num_storeys) {
   WindowLook look;
   look.surround_width_m = random.Uniform(0.14, 0.19);
   look.num_glazing_bars = random.Index(3);
@@ -154,7 +154,7 @@ WindowLook DrawLook(HashRandom& random, int storey, int num_storeys) {
 
 Palette AddPalette(World& world, const FacadeOptions& options) {
   PaletteMaker maker(world, options.detail);
-  HashRandom random{options.seed, kColorKey, 1};
+  RandomNumbers random(DeriveSeed(options.seed, kColorKey, 1));
   Palette palette;
   AddWallMaterials(maker, DrawPlasterColor(options), palette);
   AddJoinery(maker, random, palette);
@@ -164,7 +164,7 @@ Palette AddPalette(World& world, const FacadeOptions& options) {
 }
 
 std::vector<StoreyStyle> DrawStoreyStyles(const FacadeOptions& options) {
-  HashRandom random{options.seed, kStyleKey};
+  RandomNumbers random(DeriveSeed(options.seed, kStyleKey, 0));
   const std::vector<bool> is_plain = PlainStoreys(options);
   const int first_brick = 1 + random.Index(2);
   const int num_brick = 2 + random.Index(2);

@@ -10,8 +10,15 @@ namespace plumb {
 namespace {
 
 // Smaller triangles are the closed ends of sweeps and revolutions [m^2].
-constexpr double kSmallestArea_m2 = 1e-10;
+constexpr double kSmallestArea_m2 = 1e-9;
 constexpr double kLevelNormal = 0.999;
+// Vertices lie on this grid [m]: to 64 m from the origin it is exact in float, so that the true
+// surface is to the last bit what is rendered, and edges that touch have no gap from rounding.
+constexpr double kGrid_m = 0x1.0p-18;
+
+Eigen::Vector3d Snapped(const Eigen::Vector3d& point) {
+  return kGrid_m * (point / kGrid_m).array().round().matrix();
+}
 
 }  // namespace
 
@@ -35,13 +42,15 @@ void MeshBuilder::AddTriangle(const Eigen::Vector3d& a,
                               const Eigen::Vector3d& b,
                               const Eigen::Vector3d& c,
                               std::uint32_t facet) {
-  if (0.5 * (b - a).cross(c - a).norm() < kSmallestArea_m2) return;
+  const std::array<Eigen::Vector3d, 3> corners = {Snapped(world_from_local_ * a),
+                                                  Snapped(world_from_local_ * b),
+                                                  Snapped(world_from_local_ * c)};
+  const Eigen::Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+  if (0.5 * normal.norm() < kSmallestArea_m2) return;
   const std::size_t first = world_.vertices_in_world.size();
   PLUMB_CHECK_LT(first, std::size_t{0xFFFFFFF0U});
   const auto index = static_cast<std::uint32_t>(first);
-  for (const Eigen::Vector3d* corner : {&a, &b, &c}) {
-    world_.vertices_in_world.push_back(world_from_local_ * *corner);
-  }
+  world_.vertices_in_world.insert(world_.vertices_in_world.end(), corners.begin(), corners.end());
   world_.triangles.push_back({{index, index + 1, index + 2}, facet});
 }
 

@@ -29,6 +29,10 @@ class RandomNumbers {
   // In [0, 1).
   double Uniform() { return static_cast<double>(MixBits(state_++) >> 11U) * 0x1.0p-53; }
 
+  double Uniform(double low, double high) { return low + (high - low) * Uniform(); }
+  int Index(int size) { return static_cast<int>(Uniform() * size); }
+  bool Chance(double share) { return Uniform() < share; }
+
   double Normal(double sigma) {  // Box and Muller's method.
     const double radius = std::sqrt(-2.0 * std::log(1.0 - Uniform()));
     return sigma * radius * std::cos(2.0 * 3.14159265358979323846 * Uniform());

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "simulation/facade_elements.h"
-#include "simulation/hash_random.h"
 #include "simulation/profiles.h"
+#include "simulation/random_numbers.h"
 
 namespace plumb {
 namespace {
@@ -44,6 +44,7 @@ Profile GutterProfile() {
     const double radius_m = kGutterRadius_m - 0.004;
     profile.emplace_back(radius_m * std::sin(angle), radius_m * std::cos(angle));
   }
+  profile.push_back(profile.front());
   return profile;
 }
 
@@ -68,7 +69,7 @@ Profile TileProfile(double run_m) {
 
 void AddChimneys(const Site& site, double top_m, double inset_m) {
   const FacadeOptions& options = site.plan.options;
-  HashRandom random{options.seed, kChimneyKey};
+  RandomNumbers random(DeriveSeed(options.seed, kChimneyKey, 0));
   const int count = std::max(1, static_cast<int>(options.width_m / 12.0));
   for (int k = 0; k < count; ++k) {
     const double x = options.width_m * (k + random.Uniform(0.35, 0.65)) / count;
@@ -142,7 +143,7 @@ void BuildRoof(const Site& site) {
     flat.emplace_back(corner.x(), corner.y(), top_m);
   }
   site.builder.AddPolygon(flat, site.palette.zinc);
-  const auto gutter = LevelPath(Rectangle(options, out_m + kGutterRadius_m + 0.01),
+  const auto gutter = LevelPath(Rectangle(options, out_m + kGutterRadius_m - 0.005),
                                 options.height_m + 0.01,
                                 /*is_loop=*/true);
   AddSweep(site.builder, GutterProfile(), gutter, site.palette.zinc, SweepEnds::kLoop);

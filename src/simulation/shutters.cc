@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "simulation/facade_elements.h"
-#include "simulation/hash_random.h"
 #include "simulation/profiles.h"
+#include "simulation/random_numbers.h"
 
 namespace plumb {
 namespace {
@@ -67,7 +67,7 @@ void AddLeaf(const Site& site, double width_m, double height_m) {
 }  // namespace
 
 void BuildShutters(const Site& site, const BayPlan& bay) {
-  HashRandom random{site.plan.options.seed, kShutterKey, bay.random_key};
+  RandomNumbers random(DeriveSeed(site.plan.options.seed, kShutterKey, bay.random_key));
   const double half = 0.5 * bay.opening.sizes().x();
   const double hinge = half + bay.style.look.surround_width_m + 0.01;
   for (const double side : {-1.0, 1.0}) {

@@ -75,7 +75,7 @@ std::vector<Eigen::Vector2d> StaggeredPattern(const WallPlan& wall, double heigh
   // Out to the edges: what lies beyond the last control point is only extrapolated.
   const Eigen::Vector2d middle(0.5 * wall.width_m, 0.5 * (kLowest_m + height_m));
   for (Eigen::Vector2d& place : pattern) {
-    place = middle + (place - middle).cwiseProduct(Eigen::Vector2d(1.15, 1.25));
+    place = middle + (place - middle).cwiseProduct(Eigen::Vector2d(1.15, 1.4));
   }
   return pattern;
 }

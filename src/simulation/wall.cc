@@ -5,8 +5,8 @@
 #include <set>
 
 #include "simulation/facade_elements.h"
-#include "simulation/hash_random.h"
 #include "simulation/profiles.h"
+#include "simulation/random_numbers.h"
 
 namespace plumb {
 namespace {
@@ -125,7 +125,8 @@ void AddBlocks(
   const int count = FittedCount(length_m, kBlockLength_m);
   const double step_m = length_m / count;
   const double shift_m = count > 1 && row % 2 == 1 ? 0.5 * step_m : 0.0;
-  HashRandom random{site.plan.options.seed, bay.random_key, static_cast<std::uint64_t>(row)};
+  RandomNumbers random(
+      DeriveSeed(site.plan.options.seed, bay.random_key, static_cast<std::uint64_t>(row)));
   for (double x = x0 - shift_m; x < x1 - 1e-6; x += step_m) {
     const double left = std::max(x, x0);
     const double right = std::min(x + step_m, x1);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Frames, casements, glazing bars, panes and blinds.
 #include "simulation/facade_elements.h"
-#include "simulation/hash_random.h"
 #include "simulation/profiles.h"
+#include "simulation/random_numbers.h"
 
 namespace plumb {
 namespace {
@@ -69,7 +69,7 @@ void AddSash(const Site& site,
 }
 
 void AddCasements(
-    const Site& site, const WallRect& rect, int num_bars, double frame_y_m, HashRandom& random) {
+    const Site& site, const WallRect& rect, int num_bars, double frame_y_m, RandomNumbers& random) {
   const double middle = rect.center().x();
   const auto& panes = site.palette.panes;
   const auto count = static_cast<int>(panes.size());
@@ -87,7 +87,7 @@ void AddCasements(
 }
 
 // A roller blind before the frame, let down to some height.
-void AddBlind(const Site& site, const BayPlan& bay, double frame_y_m, HashRandom& random) {
+void AddBlind(const Site& site, const BayPlan& bay, double frame_y_m, RandomNumbers& random) {
   const double half = 0.5 * bay.opening.sizes().x() - 0.004;
   const double height = bay.opening.sizes().y();
   const double low = height * (1.0 - random.Uniform(0.2, 0.95));
@@ -102,7 +102,7 @@ void AddBlind(const Site& site, const BayPlan& bay, double frame_y_m, HashRandom
 }  // namespace
 
 void BuildWindow(const Site& site, const BayPlan& bay) {
-  HashRandom random{site.plan.options.seed, kWindowKey, bay.random_key};
+  RandomNumbers random(DeriveSeed(site.plan.options.seed, kWindowKey, bay.random_key));
   const double half = 0.5 * bay.opening.sizes().x();
   const double height = bay.opening.sizes().y();
   const double y_m = site.plan.options.reveal_depth_m;

@@ -8,20 +8,13 @@
 #include <cmath>
 #include <map>
 
+#include "test/simulation/small_facade.h"
+
 namespace plumb {
 namespace {
 
 using Eigen::Vector3d;
-
-FacadeOptions SmallFacade() {
-  FacadeOptions options;
-  options.width_m = 14.0;
-  options.height_m = 13.0;
-  options.num_storeys = 3;
-  options.num_doors = 1;
-  options.num_targets = 5;
-  return options;
-}
+using test::SmallFacade;
 
 Vector3d Corner(const World& world, const WorldTriangle& triangle, std::size_t corner) {
   return world.vertices_in_world[triangle.vertices[corner]];
@@ -78,7 +71,7 @@ TEST(BuildFacade, MainWallIsTheRectangleWithoutItsOpenings) {
   const int num_bays = 3;  // (14 - 2 * 0.6) / 3.6
   const double openings =
       num_bays * options.num_storeys * options.window_width_m * options.window_height_m;
-  EXPECT_NEAR(MainWallArea(world), options.width_m * options.height_m - openings, 1e-9);
+  EXPECT_NEAR(MainWallArea(world), options.width_m * options.height_m - openings, 1e-3);
 }
 
 TEST(BuildFacade, IsTheSameForTheSameSeedAndAnotherForAnother) {
@@ -131,7 +124,7 @@ TEST(BuildFacade, WithFullRepetitionFacetsOfACopyHaveTheSameShapeAndTexture) {
     const Eigen::Matrix3Xd shape = Shape(world, triangles);
     const Eigen::Matrix3Xd& first = first_shapes.emplace(copy_of, shape).first->second;
     ASSERT_EQ(shape.cols(), first.cols());
-    ASSERT_LT((shape - first).cwiseAbs().maxCoeff(), 1e-9);
+    ASSERT_LT((shape - first).cwiseAbs().maxCoeff(), 1e-5);  // Vertices are rounded to 4 um.
     num_copies += 1;
   }
   EXPECT_GT(num_copies, 2 * first_shapes.size());
