@@ -11,7 +11,7 @@ packages=(
   # The core.
   libceres-dev libcgal-dev libcli11-dev libeigen3-dev libembree-dev libexiv2-dev libjpeg-dev
   libnanoflann-dev libopencv-dev libproj-dev libsqlite3-dev libsuitesparse-dev libyaml-cpp-dev
-  nlohmann-json3-dev
+  nlohmann-json3-dev zlib1g-dev
   # ROS 1.
   libcv-bridge-dev libdiagnostic-updater-dev libtf2-ros-dev python3-diagnostic-msgs python3-nav-msgs python3-rostest
   python3-sensor-msgs python3-std-srvs python3-tf2-ros python3-visualization-msgs

@@ -11,6 +11,7 @@
 #include <csetjmp>
 #include <cstdio>
 
+#include "image/file_damage.h"
 #include "image/parallel_for.h"
 #include "image/scaled_idct.h"
 
@@ -214,7 +215,7 @@ DecodedPhoto DecodeJpeg(const std::vector<std::uint8_t>& bytes) {
   if (!IsGrayOrYCbCr(reader->info())) return {};
   const bool is_read = reader->ReadCoefficients();
   if (reader->errors().is_cut_off) {
-    return {nullptr, "the file ends in the middle of the picture; was it still being written?"};
+    return {nullptr, kCutOff};
   }
   if (!is_read || reader->errors().is_damaged) {
     return {nullptr, "the JPEG data are damaged; copy the file from the camera again"};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -79,6 +80,7 @@ cv::Mat ToEightBits(const cv::Mat& image) {
 }  // namespace
 
 DecodedPhoto DecodeWithOpenCv(const std::vector<std::uint8_t>& bytes) {
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // The caller is told.
   const DecodedPhoto failure = {nullptr, "the picture data are damaged or of an unknown kind"};
   try {
     // IMREAD_UNCHANGED, unlike the others, leaves EXIF's rotation alone.

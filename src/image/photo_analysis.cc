@@ -8,6 +8,7 @@
 
 #include "image/blur_estimate.h"
 #include "image/feature_extractor.h"
+#include "image/file_damage.h"
 #include "image/jpeg_raster.h"
 #include "image/opencv_raster.h"
 #include "plumbline/common/options.h"
@@ -49,16 +50,18 @@ bool CheckHeader(const std::vector<std::uint8_t>& bytes,
     analysis->metadata.height_px = of_header->height_px;
   }
   const PhotoSize size = {analysis->metadata.width_px, analysis->metadata.height_px};
+  if (static_cast<double>(size.width_px) * size.height_px > kMaxPixels) {
+    return Refuse(PhotoStatus::kUndecodable,
+                  "the file claims " + Describe(size) + " pixels, more than 200 megapixels",
+                  analysis);
+  }
+  std::string damage = FindFileDamage(bytes);
+  if (!damage.empty()) return Refuse(PhotoStatus::kUndecodable, std::move(damage), analysis);
   if (size.width_px <= 0 || size.height_px <= 0) {
     return Refuse(
         PhotoStatus::kUndecodable,
         std::string("the file is no photo, or of a kind that is not read; ") + kPhotoKinds + " are",
         analysis);
-  }
-  if (static_cast<double>(size.width_px) * size.height_px > kMaxPixels) {
-    return Refuse(PhotoStatus::kUndecodable,
-                  "the file claims " + Describe(size) + " pixels, more than 200 megapixels",
-                  analysis);
   }
   if (size.width_px == expected.width_px && size.height_px == expected.height_px) return true;
   std::string detail =

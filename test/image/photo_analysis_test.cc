@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdlib>
 #include <exiv2/exiv2.hpp>
 #include <filesystem>
@@ -94,10 +95,70 @@ TEST(AnalyzePhoto, RefusesAJpegThatIsCutOffAnywhere) {
   EXPECT_THAT(Analyze(half).detail, HasSubstr("ends in the middle"));
 }
 
-TEST(AnalyzePhoto, RefusesAPngThatIsCutOff) {
+// What it prints to standard error is in the way of what the caller says.
+PhotoAnalysis AnalyzeSilently(const Bytes& bytes) {
+  ::testing::internal::CaptureStderr();
+  const PhotoAnalysis analysis = Analyze(bytes);
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+  return analysis;
+}
+
+TEST(AnalyzePhoto, RefusesOtherKindsThatAreCutOffAnywhere) {
+  for (const char* extension : {".png", ".bmp", ".tif"}) {
+    const Bytes whole = Encode(Texture(), extension);
+    EXPECT_EQ(AnalyzeSilently(whole).status, PhotoStatus::kOk) << extension;
+    for (int percent = 1; percent < 100; percent += 7) {
+      const Bytes part(whole.begin(),
+                       whole.begin() + static_cast<std::ptrdiff_t>(whole.size()) * percent / 100);
+      const PhotoAnalysis analysis = AnalyzeSilently(part);
+      EXPECT_EQ(analysis.status, PhotoStatus::kUndecodable) << extension << percent << " %";
+      EXPECT_THAT(analysis.detail, HasSubstr("ends in the middle")) << extension << percent << " %";
+    }
+  }
+}
+
+TEST(AnalyzePhoto, RefusesADamagedPng) {
   Bytes bytes = Encode(Texture(), ".png");
-  bytes.resize(bytes.size() / 2);
-  EXPECT_EQ(Analyze(bytes).status, PhotoStatus::kUndecodable);
+  bytes[bytes.size() / 2] ^= 0x10;
+  const PhotoAnalysis analysis = AnalyzeSilently(bytes);
+  EXPECT_EQ(analysis.status, PhotoStatus::kUndecodable);
+  EXPECT_THAT(analysis.detail, HasSubstr("the PNG data are damaged"));
+}
+
+// Its directory before its strips, as cameras write it and OpenCV does not.
+Bytes TiffWithDirectoryFirst(const cv::Mat& image) {
+  const auto size = static_cast<std::uint32_t>(image.total() * image.elemSize());
+  const std::vector<std::array<std::uint32_t, 3>> fields = {{256, 4, kWidth},
+                                                            {257, 4, kHeight},
+                                                            {258, 3, 8},
+                                                            {259, 3, 1},
+                                                            {262, 3, 1},
+                                                            {273, 4, 146},
+                                                            {277, 3, 1},
+                                                            {278, 4, kHeight},
+                                                            {279, 4, size}};
+  Bytes bytes = {'I', 'I', 42, 0, 8, 0, 0, 0, static_cast<std::uint8_t>(fields.size()), 0};
+  const auto append = [&bytes](std::uint32_t value, int num_bytes) {
+    for (int i = 0; i < num_bytes; ++i) bytes.push_back(static_cast<std::uint8_t>(value >> 8 * i));
+  };
+  for (const auto& [tag, type, value] : fields) {
+    append(tag, 2);
+    append(type, 2);
+    append(1, 4);
+    append(value, 4);
+  }
+  bytes.resize(146);
+  bytes.insert(bytes.end(), image.datastart, image.dataend);
+  return bytes;
+}
+
+TEST(AnalyzePhoto, RefusesATiffWhoseStripsAreCutOff) {
+  cv::Mat gray;
+  cv::cvtColor(Texture(), gray, cv::COLOR_BGR2GRAY);
+  Bytes bytes = TiffWithDirectoryFirst(gray);
+  EXPECT_EQ(AnalyzeSilently(bytes).status, PhotoStatus::kOk);
+  bytes.resize(bytes.size() - 1);
+  EXPECT_THAT(AnalyzeSilently(bytes).detail, HasSubstr("ends in the middle"));
 }
 
 TEST(AnalyzePhoto, AcceptsStrayBytesBeforeTheEndOfAJpeg) {

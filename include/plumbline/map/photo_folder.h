@@ -23,7 +23,8 @@ class PhotoFolder {
   explicit PhotoFolder(std::string path) : path_(std::move(path)) {}
 
   // For the one that writes: creates the folder if need be and clears what a killed process left
-  // half-written, but not what another process writes just now. Throws std::runtime_error naming the folder.
+  // half-written, but not what another process writes just now. Throws std::runtime_error naming
+  // the folder.
   void Prepare();
 
   // The name under which these bytes are or will be kept: SafeFileName(name), or, where that is
