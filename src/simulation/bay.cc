@@ -46,6 +46,7 @@ void BuildBay(const Site& site, const BayPlan& bay) {
   if (bay.kind == BayKind::kBlank) return;
   const FrameScope frame(site.builder, {bay.opening.center().x(), 0.0, bay.opening.min().y()});
   BuildReveal(site, bay);
+  BuildFittings(site, bay);
   if (bay.kind == BayKind::kDoor) {
     BuildDoor(site, bay);
     return;

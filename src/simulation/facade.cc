@@ -36,6 +36,7 @@ void BuildWall(const Site& site, const WallPlan& wall) {
   BuildPlinth(site, wall);
   BuildQuoins(site, wall);
   BuildDownpipes(site, wall);
+  BuildDormers(site, wall);
   for (const std::vector<BayPlan>& storey : wall.storeys) {
     for (const BayPlan& bay : storey) BuildBay(site, bay);
   }

@@ -30,12 +30,17 @@ void BuildWindowDress(const Site& site, const BayPlan& bay);  // Surround, sill,
 void BuildShutters(const Site& site, const BayPlan& bay);
 void BuildBalcony(const Site& site, const BayPlan& bay);
 void BuildDoor(const Site& site, const BayPlan& bay);
+void BuildFittings(const Site& site, const BayPlan& bay);  // Grilles, lamps, vents, boxes.
 
 // Elements that go round the building; the builder's frame is the world's.
 void BuildStringCourses(const Site& site);
 void BuildEntablature(const Site& site);
 void BuildRoof(const Site& site);
+void BuildDormers(const Site& site, const WallPlan& wall);  // In the wall's frame.
 void BuildGround(const Site& site);
+
+// The roof's slope, as rise over run, with its tiles' edges.
+double RoofSlope();
 
 // Whether a bay is wide enough for open shutters beside its window.
 bool HasShutters(const BayPlan& bay);

@@ -51,6 +51,12 @@ Material MakeElements(Pattern pattern,
   return material;
 }
 
+Material MakeSoil(const Eigen::Vector3f& reflectance, float detail, float coarsest_m) {
+  Material material = Make(Pattern::kPlaster, reflectance, detail);
+  material.coarsest_detail_m = coarsest_m;
+  return material;
+}
+
 Material MakePane(const Eigen::Vector3f& reflectance, float specular) {
   Material material = Make(Pattern::kGlass, reflectance, 0.08F);
   material.specular = specular;
@@ -112,11 +118,11 @@ void AddRoofAndGround(PaletteMaker& maker, Palette& palette) {
   palette.roof_tiles = maker.Add(MakeElements(
       Pattern::kRoofTiles, {0.30F, 0.13F, 0.075F}, 0.18F, {0.18F, 0.30F}, 0.006F, 0.2F));
   palette.pavement = maker.Add(
-      MakeElements(Pattern::kAshlar, {0.27F, 0.26F, 0.24F}, 0.2F, {0.6F, 0.4F}, 0.008F, 0.1F));
+      MakeElements(Pattern::kGround, {0.27F, 0.26F, 0.24F}, 0.13F, {0.6F, 0.4F}, 0.008F, 0.1F));
   palette.kerb = maker.Add(
       MakeElements(Pattern::kAshlar, {0.34F, 0.33F, 0.31F}, 0.2F, {1.0F, 1.0F}, 0.008F, 0.08F));
-  palette.grass = maker.Add(Make(Pattern::kGround, {0.06F, 0.11F, 0.03F}, 0.5F));
-  palette.asphalt = maker.Add(Make(Pattern::kGround, {0.10F, 0.10F, 0.10F}, 0.3F));
+  palette.grass = maker.Add(MakeSoil({0.07F, 0.12F, 0.035F}, 0.25F, 0.5F));
+  palette.asphalt = maker.Add(MakeSoil({0.14F, 0.14F, 0.135F}, 0.1F, 0.3F));
 }
 
 // Which storeys are plain: spread over the height, the ground storey last.

@@ -125,6 +125,11 @@ void AddDownpipe(const Site& site, double x) {
 
 }  // namespace
 
+double RoofSlope() {
+  const double slope_m = kTileRow_m - kTileRiser_m;
+  return (slope_m * std::sin(kPitch_rad) + kTileRiser_m) / (slope_m * std::cos(kPitch_rad));
+}
+
 void BuildDownpipes(const Site& site, const WallPlan& wall) {
   for (const double x : wall.downpipes_m) AddDownpipe(site, x);
 }

@@ -178,21 +178,34 @@ void AddBlock(MeshBuilder& builder,
               const Vector3d& high,
               double bevel_m,
               std::uint32_t material) {
-  AddBox(builder,
-         {low.x(), low.y() + bevel_m, low.z()},
-         high,
-         material,
-         {/*front=*/false, /*back=*/false, true, true, true});
-  const auto rectangle = [](double x0, double x1, double y, double z0, double z1) {
-    return std::vector<Vector3d>{{x0, y, z0}, {x1, y, z0}, {x1, y, z1}, {x0, y, z1}};
-  };
-  const auto outer = rectangle(low.x(), high.x(), low.y() + bevel_m, low.z(), high.z());
-  const auto inner = rectangle(
-      low.x() + bevel_m, high.x() - bevel_m, low.y(), low.z() + bevel_m, high.z() - bevel_m);
-  builder.AddPolygon(inner, material);
+  AddBlock(builder, low, high, bevel_m, bevel_m, bevel_m, material);
+}
+
+void AddBlock(MeshBuilder& builder,
+              const Vector3d& low,
+              const Vector3d& high,
+              double bevel_m,
+              double left_bevel_m,
+              double right_bevel_m,
+              std::uint32_t material) {
+  // Front and the rim behind the bevels, from the lower left corner round.
+  const std::array<Vector3d, 4> inner = {
+      Vector3d(low.x() + left_bevel_m, low.y(), low.z() + bevel_m),
+      Vector3d(high.x() - right_bevel_m, low.y(), low.z() + bevel_m),
+      Vector3d(high.x() - right_bevel_m, low.y(), high.z() - bevel_m),
+      Vector3d(low.x() + left_bevel_m, low.y(), high.z() - bevel_m)};
+  const double rim_y = low.y() + bevel_m;
+  const std::array<Vector3d, 4> outer = {Vector3d(low.x(), rim_y, low.z()),
+                                         Vector3d(high.x(), rim_y, low.z()),
+                                         Vector3d(high.x(), rim_y, high.z()),
+                                         Vector3d(low.x(), rim_y, high.z())};
+  builder.AddPolygon({inner.begin(), inner.end()}, material);
   for (std::size_t i = 0; i < 4; ++i) {
     const std::size_t next = (i + 1) % 4;
+    const Vector3d back_from(outer[i].x(), high.y(), outer[i].z());
+    const Vector3d back_to(outer[next].x(), high.y(), outer[next].z());
     builder.AddPolygon({outer[i], outer[next], inner[next], inner[i]}, material);
+    builder.AddPolygon({back_from, back_to, outer[next], outer[i]}, material);
   }
 }
 

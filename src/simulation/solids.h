@@ -76,6 +76,15 @@ void AddBlock(MeshBuilder& builder,
               double bevel_m,
               std::uint32_t material);
 
+// The same with a bevel of its own on the left and on the right; 0: it goes on in the next block.
+void AddBlock(MeshBuilder& builder,
+              const Eigen::Vector3d& low,
+              const Eigen::Vector3d& high,
+              double bevel_m,
+              double left_bevel_m,
+              double right_bevel_m,
+              std::uint32_t material);
+
 // A surface of revolution about the upright line through `foot`; outline of (radius, height)
 // upwards, open at both ends unless its radius is 0 there.
 void AddRevolution(MeshBuilder& builder,

@@ -27,7 +27,7 @@ WallRect DressOf(const BayPlan& bay) {
   double side_m = bay.style.look.surround_width_m + 0.12;
   if (HasShutters(bay)) side_m += 0.5 * opening.sizes().x() + 0.02;
   if (bay.kind == BayKind::kBalcony) side_m = std::max(side_m, 0.9);
-  if (bay.kind == BayKind::kDoor) side_m = 0.5;
+  if (bay.kind == BayKind::kDoor) side_m = 0.8;
   const double below_m = bay.kind == BayKind::kBalcony ? 0.85 : 0.1;
   const bool has_pediment = bay.hood == HoodKind::kTriangular || bay.hood == HoodKind::kSegmental;
   double above_m = bay.hood == HoodKind::kNone ? 0.45 : 0.6;

@@ -118,24 +118,28 @@ void AddPanel(const Site& site,
   }
 }
 
+// Blocks of one row in running bond: in every other row the blocks go on into the next bay.
 void AddBlocks(
     const Site& site, const BayPlan& bay, double x0, double x1, double z0, double z1, int row) {
   if (x1 - x0 < 0.05 || z1 - z0 < 0.05) return;
   const double length_m = x1 - x0;
-  const int count = FittedCount(length_m, kBlockLength_m);
-  const double step_m = length_m / count;
-  const double shift_m = count > 1 && row % 2 == 1 ? 0.5 * step_m : 0.0;
+  const double step_m = length_m / FittedCount(length_m, kBlockLength_m);
+  const bool is_shifted = row % 2 == 1;
   RandomNumbers random(
       DeriveSeed(site.plan.options.seed, bay.random_key, static_cast<std::uint64_t>(row)));
-  for (double x = x0 - shift_m; x < x1 - 1e-6; x += step_m) {
+  for (double x = is_shifted ? x0 - 0.5 * step_m : x0; x < x1 - 1e-6; x += step_m) {
     const double left = std::max(x, x0);
     const double right = std::min(x + step_m, x1);
-    const double worn_m = bay.copy_key.empty() ? random.Uniform(0.0, 0.004) : 0.0;
     if (right - left < 2.5 * kBlockBevel_m) continue;
+    const bool from_left = is_shifted && left == bay.cell.min().x();
+    const bool to_right = is_shifted && right == bay.cell.max().x();
+    const bool is_worn = bay.copy_key.empty() && !from_left && !to_right;
     AddBlock(site.builder,
-             {left, -kRustication_m + worn_m, z0},
+             {left, -kRustication_m + (is_worn ? random.Uniform(0.0, 0.004) : 0.0), z0},
              {right, kEmbedded_m, z1},
              kBlockBevel_m,
+             from_left ? 0.0 : kBlockBevel_m,
+             to_right ? 0.0 : kBlockBevel_m,
              site.palette.ashlar);
   }
 }
