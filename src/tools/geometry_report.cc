@@ -91,12 +91,6 @@ class Completeness {
   CloudIndex reconstructed_;
 };
 
-Points PointsOf(const std::vector<SurfaceSample>& samples) {
-  Points points;
-  for (const SurfaceSample& sample : samples) points.push_back(sample.point);
-  return points;
-}
-
 Points Thinned(const Points& points, std::size_t max_points) {
   Points thinned;
   std::mt19937_64 random(kSeed);
@@ -105,14 +99,19 @@ Points Thinned(const Points& points, std::size_t max_points) {
 }
 
 Json CompareWithSurface(const GeometryTruth& truth,
-                        const TriangleMesh& mesh,
+                        const TriangleMesh& in_view,
                         const MeshIndex& index,
                         const Completeness& completeness,
                         const Points& points) {
   const auto distances = EvaluateAtPoints(
       points, [&](const Eigen::Vector3d& point) { return index.NearestTo(point).distance; });
-  return Compare(SummariseDistances(distances),
-                 completeness.Of(PointsOf(SampleSurface(mesh, truth.num_samples, kSeed)), &index));
+  Points samples;
+  if (!in_view.triangles.empty()) {
+    for (const SurfaceSample& sample : SampleSurface(in_view, truth.num_samples, kSeed)) {
+      samples.push_back(sample.point);
+    }
+  }
+  return Compare(SummariseDistances(distances), completeness.Of(samples, &index));
 }
 
 Json CompareWithLaser(const GeometryTruth& truth,
@@ -154,8 +153,8 @@ void ReportGeometry(const GeometryTruth& truth,
     const TriangleMesh mesh = ReadPlyMesh(truth.surface);
     try {
       surface = std::make_unique<MeshIndex>(mesh);
-      (*report)["surface"] =
-          CompareWithSurface(truth, mesh, *surface, completeness, points_in_world);
+      (*report)["surface"] = CompareWithSurface(
+          truth, PiecesInView(mesh, camera, truth.photos), *surface, completeness, points_in_world);
       (*report)["wall"] = MeasureWall(truth, mesh, *surface, points_in_world);
     } catch (const std::invalid_argument& error) {
       throw std::runtime_error(truth.surface + ": " + error.what());

@@ -72,8 +72,8 @@ TEST_F(GeometryReportTest, HoldsPointsAgainstBothTruths) {
     EXPECT_EQ(accuracy.at("share_within").at("2 mm"), 0.0);
     EXPECT_GT(accuracy.at("share_within").at("5 mm"), 0.99);
   }
-  // What stands behind the wall is in no photo, and half of the samples.
-  EXPECT_NEAR(report.at("surface").at("completeness").at("points"), 10'000, 1);
+  // What stands behind the wall is in no photo, but near half of what lies in their cones.
+  EXPECT_NEAR(report.at("surface").at("completeness").at("points"), 10'000, 1'000);
   EXPECT_EQ(report.at("laser").at("completeness").at("points"), 20'000);
   EXPECT_LT(report.at("wall").at("max_bend_mm"), 1e-6);
   EXPECT_EQ(report.at("wall").at("cells").size(), 50u);
