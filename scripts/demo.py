@@ -128,7 +128,9 @@ def run_flight(arguments):
     photos = fly_photos.list_photos(arguments.photos)
     fly(photos, arguments.out / "card", verdicts, arguments)
     finish = rospy.ServiceProxy("/plumbline/finish", Trigger)
-    finish()
+    answer = finish()
+    if not answer.success:
+        print(f"The flight is not finished: {answer.message}")
     take_picture(arguments.out / f"rviz_{len(photos):03d}.png")
     print_verdicts(verdicts.all())
     print_accuracy(session, arguments.photos.parent / "ground_truth" / "poses.csv")
