@@ -10,7 +10,7 @@ endif()
 file(MAKE_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib/python3/dist-packages)
 
 find_package(catkin REQUIRED COMPONENTS cv_bridge diagnostic_msgs
-             diagnostic_updater geometry_msgs message_generation nav_msgs roscpp sensor_msgs std_msgs std_srvs tf2_ros visualization_msgs)
+             diagnostic_updater geometry_msgs message_generation nav_msgs rosbag_storage roscpp sensor_msgs std_msgs std_srvs tf2_ros visualization_msgs)
 
 add_message_files(FILES LandmarkStates.msg MapDelta.msg ObservationStates.msg Photo.msg
                   PhotoVerdict.msg StoredPhotos.msg ViewState.msg)
@@ -41,6 +41,8 @@ endforeach()
 if(TARGET plumbline_tool)
   set_target_properties(plumbline_tool PROPERTIES RUNTIME_OUTPUT_DIRECTORY
                         ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
+  target_compile_definitions(plumbline_tool PRIVATE PLUMBLINE_WITH_ROS)
+  target_link_libraries(plumbline_tool PRIVATE plumb_ros)  # `plumbline simulate` writes a bag.
   list(APPEND programs plumbline_tool)
 endif()
 

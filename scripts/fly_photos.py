@@ -5,6 +5,7 @@
 
 import argparse
 import pathlib
+import sys
 import time
 
 PHOTO_SUFFIXES = {".jpg", ".jpeg", ".png", ".tif", ".tiff", ".bmp"}
@@ -34,7 +35,8 @@ def main():
     parser.add_argument("--every", type=float, default=1.0, help="seconds from photo to photo")
     parser.add_argument("--first", type=int, default=0, help="skip this many photos")
     parser.add_argument("--count", type=int, default=None, help="leave at most this many photos")
-    arguments = parser.parse_args()
+    # roslaunch adds names of its own, __name:=fly_photos.
+    arguments = parser.parse_args([word for word in sys.argv[1:] if ":=" not in word])
     pathlib.Path(arguments.folder).mkdir(parents=True, exist_ok=True)
     photos = list_photos(arguments.photos)[arguments.first:]
     for photo in photos[:arguments.count]:

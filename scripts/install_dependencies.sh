@@ -13,7 +13,7 @@ packages=(
   libnanoflann-dev libopencv-dev libproj-dev libsqlite3-dev libsuitesparse-dev libyaml-cpp-dev
   nlohmann-json3-dev zlib1g-dev
   # ROS 1.
-  libcv-bridge-dev libdiagnostic-updater-dev libtf2-ros-dev python3-diagnostic-msgs python3-nav-msgs python3-rostest
+  libcv-bridge-dev libdiagnostic-updater-dev librosbag-storage-dev libtf2-ros-dev python3-diagnostic-msgs python3-nav-msgs python3-rostest
   python3-sensor-msgs python3-std-srvs python3-tf2-ros python3-visualization-msgs
   ros-core-dev rosbash rviz
   # Tests and the demo.

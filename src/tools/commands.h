@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "tools/exit_code.h"
+#include "tools/flight_bag.h"
 
 namespace plumb::tools {
 
@@ -14,5 +15,8 @@ void AddReconstructCommand(CLI::App* app, ExitCode* exit_code);
 void AddCheckCommand(CLI::App* app, ExitCode* exit_code);
 void AddEvaluateCommand(CLI::App* app, ExitCode* exit_code);
 void AddExportCommand(CLI::App* app, ExitCode* exit_code);
+
+// `write_bag` may be empty: no ROS in this build.
+void AddSimulateCommand(CLI::App* app, FlightBagWriter write_bag, ExitCode* exit_code);
 
 }  // namespace plumb::tools

@@ -94,6 +94,21 @@ void ReadValue(const YAML::Node& node, const FieldPath& path, bool* value) {
   ReadScalar(node, path, "true or false", value);
 }
 
+void ReadValue(const YAML::Node& node, const FieldPath& path, std::uint32_t* value) {
+  ReadScalar(node, path, "a whole number of at least 0", value);
+}
+
+void ReadValue(const YAML::Node& node, const FieldPath& path, Eigen::Vector3d* value) {
+  if (!node.IsSequence() || node.size() != 3) {
+    Fail(path, "must be a list of three numbers, [x, y, z]; correct this value");
+  }
+  for (int i = 0; i < 3; ++i) ReadValue(node[i], path, &(*value)[i]);
+}
+
+void CheckList(const YAML::Node& node, const FieldPath& path) {
+  if (!node.IsSequence()) Fail(path, "must be a list, each entry after a \"- \"");
+}
+
 void ReadValue(const YAML::Node& node, const FieldPath& path, std::string* value) {
   if (!node.IsScalar()) Fail(path, "must be a text; correct this value");
   *value = node.Scalar();

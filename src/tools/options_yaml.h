@@ -4,8 +4,11 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <Eigen/Core>
+#include <cstdint>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace plumb::tools {
 
@@ -33,6 +36,15 @@ void ReadValue(const YAML::Node& node, const FieldPath& path, double* value);
 void ReadValue(const YAML::Node& node, const FieldPath& path, int* value);
 void ReadValue(const YAML::Node& node, const FieldPath& path, bool* value);
 void ReadValue(const YAML::Node& node, const FieldPath& path, std::string* value);
+void ReadValue(const YAML::Node& node, const FieldPath& path, std::uint32_t* value);
+void ReadValue(const YAML::Node& node, const FieldPath& path, Eigen::Vector3d* value);
+
+// Throws unless `node` is a list.
+void CheckList(const YAML::Node& node, const FieldPath& path);
+
+// A list of structs with VisitFields; it replaces what there was.
+template <typename Options>
+void ReadValue(const YAML::Node& node, const FieldPath& path, std::vector<Options>* list);
 
 // Any struct with VisitFields.
 template <typename Options>
@@ -46,6 +58,15 @@ void ReadValue(const YAML::Node& node, const FieldPath& path, Options* options) 
     if (!child.IsDefined()) return;
     ReadValue(child, {path.source, path.name.empty() ? name : path.name + '.' + name}, &field);
   });
+}
+
+template <typename Options>
+void ReadValue(const YAML::Node& node, const FieldPath& path, std::vector<Options>* list) {
+  CheckList(node, path);
+  list->assign(node.size(), Options());
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    ReadValue(node[i], {path.source, path.name + '[' + std::to_string(i) + ']'}, &(*list)[i]);
+  }
 }
 
 }  // namespace plumb::tools

@@ -2,8 +2,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <iostream>
 
+#ifdef PLUMBLINE_WITH_ROS
+#include "ros/flight_bag.h"
+#endif
 #include "tools/commands.h"
 #include "tools/usage_error.h"
+
+namespace {
+
+plumb::tools::FlightBagWriter BagWriter() {
+#ifdef PLUMBLINE_WITH_ROS
+  return plumb::ros_adapter::WriteFlightBag;
+#else
+  return {};
+#endif
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace plumb::tools;
@@ -16,6 +31,7 @@ int main(int argc, char** argv) {
   AddCheckCommand(&app, &exit_code);
   AddEvaluateCommand(&app, &exit_code);
   AddExportCommand(&app, &exit_code);
+  AddSimulateCommand(&app, BagWriter(), &exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

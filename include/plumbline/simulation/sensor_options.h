@@ -18,8 +18,8 @@ struct SensorOptions {
   // Each photo is metered anew, in thirds of a stop; otherwise all are taken as the first of the
   // flight's bounds: max_exposure_s at min_iso.
   bool auto_exposure = true;
-  // Mean of the photo that metering aims at, linear. Mid grey.
-  double metering_target = 0.18;
+  // Mean of the photo that metering aims at, linear.
+  double metering_target = 0.2;
   // Sensitivity is raised only where this is too short.
   double max_exposure_s = 0.001;
   int min_iso = 100;
