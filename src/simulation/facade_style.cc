@@ -90,14 +90,15 @@ void AddWallMaterials(PaletteMaker& maker, const Eigen::Vector3f& plaster, Palet
 
 void AddJoinery(PaletteMaker& maker, RandomNumbers& random, Palette& palette) {
   const Eigen::Vector2f boards_m(0.11F, 2.4F);
+  const Eigen::Vector2f one_piece_m(400.0F, 400.0F);  // No joints.
   palette.frame = maker.Add(
-      MakeElements(Pattern::kWood, {0.62F, 0.60F, 0.54F}, 0.08F, {3.0F, 3.0F}, 0.0F, 0.0F));
+      MakeElements(Pattern::kWood, {0.62F, 0.60F, 0.54F}, 0.08F, one_piece_m, 0.0F, 0.0F));
   const bool is_green = random.Chance(0.5);
   palette.shutter = maker.Add(MakeElements(
       Pattern::kWood,
       is_green ? Eigen::Vector3f(0.06F, 0.13F, 0.08F) : Eigen::Vector3f(0.17F, 0.10F, 0.06F),
       0.16F,
-      {3.0F, 3.0F},
+      one_piece_m,
       0.0F,
       0.0F));
   palette.door = maker.Add(
@@ -105,8 +106,8 @@ void AddJoinery(PaletteMaker& maker, RandomNumbers& random, Palette& palette) {
   palette.panes = {maker.Add(MakePane({0.02F, 0.022F, 0.024F}, 0.22F)),
                    maker.Add(MakePane({0.07F, 0.07F, 0.065F}, 0.2F)),
                    maker.Add(MakePane({0.34F, 0.33F, 0.30F}, 0.14F))};
-  palette.blind = maker.Add(
-      MakeElements(Pattern::kWood, {0.46F, 0.43F, 0.36F}, 0.08F, {3.0F, 0.05F}, 0.004F, 0.03F));
+  palette.blind = maker.Add(MakeElements(
+      Pattern::kWood, {0.46F, 0.43F, 0.36F}, 0.08F, {one_piece_m.x(), 0.05F}, 0.004F, 0.03F));
 }
 
 void AddMetals(PaletteMaker& maker, Palette& palette) {

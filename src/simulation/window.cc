@@ -20,8 +20,8 @@ constexpr double kBlindShare = 0.22;
 constexpr std::uint64_t kWindowKey = 301;
 
 void AddRing(const Site& site, const WallRect& rect, double front_y_m, double width_m) {
-  const Eigen::Vector2d low = rect.min();
-  const Eigen::Vector2d high = rect.max();
+  const Eigen::Vector2d& low = rect.min();
+  const Eigen::Vector2d& high = rect.max();
   const auto path =
       WallPath({low, {high.x(), low.y()}, high, {low.x(), high.y()}}, front_y_m, /*is_loop=*/true);
   AddSweep(site.builder,
