@@ -18,12 +18,14 @@ DescriptorSpan FirstRows(const DescriptorMatrix& descriptors, Eigen::Index max_r
 }
 
 std::vector<FeatureMatch> Match(const MatcherOptions& options,
+                                double max_ratio,
                                 const DescriptorSpan& descriptors1,
                                 const DescriptorSpan& descriptors2) {
   PLUMB_CHECK(options.Problems().empty());
   const internal::Neighbors neighbors = internal::FindNeighbors(
       internal::BestSimdPath(), descriptors1, descriptors2, options.num_threads);
-  const double max_ratio2 = options.max_ratio * options.max_ratio;
+  const double max_ratio2 = max_ratio * max_ratio;
+  const double distinct_ratio2 = options.max_ratio * options.max_ratio;
   std::vector<FeatureMatch> matches;
   for (std::size_t i = 0; i < neighbors.rows.size(); ++i) {
     const RowNeighbors& row = neighbors.rows[i];
@@ -31,7 +33,8 @@ std::vector<FeatureMatch> Match(const MatcherOptions& options,
     const auto j = static_cast<std::size_t>(row.best_idx);
     if (neighbors.column_best_idx[j] != static_cast<std::int32_t>(i)) continue;
     if (row.best_distance2 >= max_ratio2 * row.second_distance2) continue;
-    matches.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)});
+    const bool is_distinct = row.best_distance2 < distinct_ratio2 * row.second_distance2;
+    matches.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), is_distinct});
   }
   return matches;
 }
@@ -42,6 +45,16 @@ std::vector<FeatureMatch> MatchDescriptors(const MatcherOptions& options,
                                            const DescriptorMatrix& descriptors1,
                                            const DescriptorMatrix& descriptors2) {
   return Match(options,
+               options.max_ratio,
+               FirstRows(descriptors1, descriptors1.rows()),
+               FirstRows(descriptors2, descriptors2.rows()));
+}
+
+std::vector<FeatureMatch> MatchDescriptorsWidely(const MatcherOptions& options,
+                                                 const DescriptorMatrix& descriptors1,
+                                                 const DescriptorMatrix& descriptors2) {
+  return Match(options,
+               std::max(options.max_ratio, options.max_wide_ratio),
                FirstRows(descriptors1, descriptors1.rows()),
                FirstRows(descriptors2, descriptors2.rows()));
 }
@@ -51,8 +64,10 @@ std::vector<FeatureMatch> MatchLargestFeatures(const MatcherOptions& options,
                                                const DescriptorMatrix& descriptors2,
                                                int max_features) {
   PLUMB_CHECK_GE(max_features, 0);
-  return Match(
-      options, FirstRows(descriptors1, max_features), FirstRows(descriptors2, max_features));
+  return Match(options,
+               options.max_ratio,
+               FirstRows(descriptors1, max_features),
+               FirstRows(descriptors2, max_features));
 }
 
 }  // namespace plumb

@@ -100,8 +100,8 @@ class GuidedMatcher {
         second = std::min(second, distance);
       }
     }
-    if (best > kMaxSquaredRatio * second) return std::nullopt;
-    return best_idx;
+    if (!best_idx || best > kMaxSquaredRatio * second) return std::nullopt;
+    return photo_.first_at_spot[*best_idx];
   }
 
   const LocalizerOptions& options_;

@@ -25,8 +25,27 @@ std::string HintFor(RefusalReason reason, const std::string& other) {
   }
 }
 
-std::string FirstPhotoHint() {
-  return "the first photo; take the next one a tenth of the wall's distance to the side";
+std::string HintWithoutMap(RefusalReason reason, const std::string& other) {
+  switch (reason) {
+    case RefusalReason::kNone:
+      return "the first photo; take the next one a tenth of the wall's distance to the side";
+    case RefusalReason::kNoOverlap:
+      return other.empty()
+                 ? "a model begins with two photos; take a second one that overlaps this one by "
+                   "two "
+                   "thirds, a tenth of the wall's distance to the side"
+                 : "no model yet: too little in common with " + other +
+                       "; take one that overlaps it by two thirds, a tenth of the wall's distance "
+                       "to the side, of a wall with texture";
+    case RefusalReason::kTooFewInliers:
+      return "no model yet: what looks alike in " + other +
+             " does not fit one rigid object; overlap more, and show what stands still";
+    case RefusalReason::kAmbiguous:
+      return "no model yet: too little depth to tell how the camera moved from " + other +
+             "; step further aside, or show something that stands out of the wall";
+    default:
+      return HintFor(reason, other);
+  }
 }
 
 }  // namespace plumb

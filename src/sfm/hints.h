@@ -12,7 +12,7 @@ namespace plumb {
 // `other` names the photo it looks most like, or is the same as; may be empty.
 std::string HintFor(RefusalReason reason, const std::string& other);
 
-// For the first photo of a session.
-std::string FirstPhotoHint();
+// The same while no map has begun: what is still missing for one. kNone: the first photo.
+std::string HintWithoutMap(RefusalReason reason, const std::string& other);
 
 }  // namespace plumb

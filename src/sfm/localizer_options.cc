@@ -12,6 +12,10 @@ std::vector<std::string> LocalizerOptions::Problems() const {
       max_refined_error_px > 0.0, "max_refined_error_px", "greater than 0", max_refined_error_px);
   list.Require(min_num_matches >= 4, "min_num_matches", "at least 4", min_num_matches);
   list.Require(min_num_inliers >= 4, "min_num_inliers", "at least 4", min_num_inliers);
+  list.Require(min_num_related_inliers >= 4 && min_num_related_inliers <= min_num_inliers,
+               "min_num_related_inliers",
+               "from 4 to min_num_inliers",
+               min_num_related_inliers);
   list.Require(
       min_num_cells >= 1 && min_num_cells <= 64, "min_num_cells", "from 1 to 64", min_num_cells);
   list.Require(max_second_pose_ratio > 0.0 && max_second_pose_ratio <= 1.0,

@@ -73,6 +73,7 @@ void Mapper::Impl::Add(MapperPhoto photo) {
 void Mapper::Impl::Poll() {
   if (!options_.deterministic) ManageBackground();
   RetryQueued(1);
+  MatchQueuedPairs(1);
 }
 
 void Mapper::Impl::Finish() {
@@ -84,34 +85,13 @@ void Mapper::Impl::Finish() {
     if (verdict.status != VerdictStatus::kWaiting) continue;
     const RefusalReason reason =
         verdict.reason == RefusalReason::kNone ? RefusalReason::kNoOverlap : verdict.reason;
-    PublishRefusal(photo, reason, VerdictStatus::kRefused, {});
+    Location nowhere;
+    nowhere.views = LikestPhotos(photo);
+    PublishRefusal(photo, reason, VerdictStatus::kRefused, nowhere);
   }
-  if (!map_.views().empty()) FinalBundle();
-}
-
-void Mapper::Impl::Restore(std::vector<MapperPhoto> photos,
-                           const std::vector<PhotoVerdict>& verdicts,
-                           const MapDelta& snapshot) {
-  PLUMB_CHECK(states_.empty());
-  if (snapshot.lens) AdoptLens(*snapshot.lens);
-  std::map<PhotoId, std::shared_ptr<const FeatureSet>> features;
-  for (MapperPhoto& photo : photos) {
-    ++num_photos_;
-    PhotoState& state = states_[photo.id];
-    state.verdict.photo = photo.id;
-    state.verdict.name = photo.name;
-    photo_of_hash_.try_emplace(photo.analysis.content_hash, photo.id);
-    if (photo.analysis.status != PhotoStatus::kOk) continue;
-    PhotoRecord& record = records_[photo.id];
-    record = MakePhotoRecord(
-        camera_, photo.id, photo.name, photo.exposure_time, std::move(photo.analysis.features));
-    features[photo.id] = record.features;
-    retrieval_.Add(photo.id, record.features->descriptors);
-  }
-  for (const PhotoVerdict& verdict : verdicts) states_.at(verdict.photo).verdict = verdict;
-  map_ = Map::FromSnapshot(snapshot, features);
-  num_views_at_last_bundle_ = map_.views().size();
-  for (const auto& [photo, view] : map_.views()) last_accepted_ = photo;
+  if (map_.views().empty()) return;
+  MatchQueuedPairs(unmatched_pairs_.size());
+  FinalBundle();
 }
 
 // Takes in a background bundle when it is due and starts one when the map has grown.

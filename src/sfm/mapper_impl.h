@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -38,8 +39,11 @@ class Mapper::Impl {
     std::uint64_t content_hash = 0;
   };
 
+  enum class MatchReach { kDistinct, kWide };
+
   struct Location {
     Localization localization;
+    MatchReach reach = MatchReach::kDistinct;
     std::vector<MapMatch> matches;  // All that were tried.
     std::vector<PhotoId> views;     // Those it was matched with, most alike first.
   };
@@ -65,6 +69,9 @@ class Mapper::Impl {
 
   // Start of the map (mapper_start.cc).
   std::optional<InitialPair> BestPairWith(PhotoId photo, PairSearch* search);
+  const PairAttempt& TryPair(PhotoId photo1, PhotoId photo2);
+  std::optional<InitialPair> BestPairOfMapWithout(PhotoId photo);
+  std::vector<PhotoId> LikestPhotos(PhotoId photo) const;
   void TryStart(PhotoId photo);
   void ReconsiderStart(PhotoId photo);
   void StartFrom(const InitialPair& pair);
@@ -75,10 +82,18 @@ class Mapper::Impl {
   std::vector<PhotoId> CandidateViews(const std::vector<RankedView>& ranked) const;
   std::optional<PhotoId> LikestElsewhere(const std::vector<RankedView>& ranked,
                                          const Location& location) const;
-  std::vector<MapMatch> MatchWithViews(PhotoId photo, const std::vector<PhotoId>& views);
+  std::vector<MapMatch> MatchWithViews(PhotoId photo,
+                                       const std::vector<PhotoId>& views,
+                                       MatchReach reach);
   Location Locate(PhotoId photo);
+  void LocateByMatches(PhotoId photo,
+                       const std::vector<RankedView>& ranked,
+                       MatchReach reach,
+                       Location* location);
   bool TryAccept(PhotoId photo);
   void AddViewAt(PhotoId photo, const Rigid3& cam_from_map);
+  bool IsSparse(PhotoId photo) const;
+  void ExpandFrom(PhotoId photo, const std::vector<PhotoId>& views);
   void Extend(PhotoId photo);
   void QueueRetriesNear(PhotoId photo);
   void RetryQueued(int max_retries);
@@ -90,6 +105,10 @@ class Mapper::Impl {
   bool AdoptLens(const LensParameters<double>& lens);
   void FinalBundle();
 
+  // After Restore (mapper_restore.cc).
+  void QueueUnmatchedPairs();
+  void MatchQueuedPairs(std::size_t max_pairs);
+
   MapperOptions options_;
   Camera camera_;
   MapperListener* listener_;
@@ -100,9 +119,9 @@ class Mapper::Impl {
   ViewRetrieval retrieval_;
   MatchGraph matches_;
   Map map_;
-  std::optional<InitialPair> initial_pair_;  // Of the map; nothing after Restore.
-  std::optional<PhotoId> last_accepted_;
+  std::map<std::pair<PhotoId, PhotoId>, PairAttempt> pair_attempts_;
   std::vector<PhotoId> retry_queue_;
+  std::vector<std::pair<PhotoId, PhotoId>> unmatched_pairs_;  // Of a restored map.
 
   BackgroundBundle background_;
   std::size_t num_photos_ = 0;  // Added so far; the clock of deterministic runs.

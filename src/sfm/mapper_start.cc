@@ -25,22 +25,53 @@ int Nearness(RefusalReason reason) {
 
 }  // namespace
 
+const PairAttempt& Mapper::Impl::TryPair(PhotoId photo1, PhotoId photo2) {
+  const auto [it, is_new] = pair_attempts_.try_emplace({photo1, photo2});
+  if (is_new) {
+    const PhotoRecord& record1 = records_.at(photo1);
+    const PhotoRecord& record2 = records_.at(photo2);
+    it->second = TryInitialPair(
+        options_.bootstrap, camera_, record1, record2, matches_.Match(record1, record2));
+  }
+  return it->second;
+}
+
+// The earlier photos that look most like it, most alike first.
+std::vector<PhotoId> Mapper::Impl::LikestPhotos(PhotoId photo) const {
+  std::vector<PhotoId> photos;
+  const int num_wanted = options_.bootstrap.max_partners + 1;
+  for (const RankedView& ranked :
+       retrieval_.Query(records_.at(photo).features->descriptors, num_wanted)) {
+    if (ranked.photo != photo) photos.push_back(ranked.photo);
+  }
+  return photos;
+}
+
 // The best pair of the photo and the earlier ones that look most like it.
 std::optional<InitialPair> Mapper::Impl::BestPairWith(PhotoId photo, PairSearch* search) {
-  const PhotoRecord& record = records_.at(photo);
   std::optional<InitialPair> best;
-  const int num_wanted = options_.bootstrap.max_partners + 1;
-  for (const RankedView& ranked : retrieval_.Query(record.features->descriptors, num_wanted)) {
-    if (ranked.photo == photo) continue;
-    const PhotoRecord& other = records_.at(ranked.photo);
-    search->partners.push_back(ranked.photo);
-    const PairAttempt attempt =
-        TryInitialPair(options_.bootstrap, camera_, other, record, matches_.Match(other, record));
+  search->partners = LikestPhotos(photo);
+  for (const PhotoId partner : search->partners) {
+    const PairAttempt& attempt = TryPair(partner, photo);
     if (!attempt.pair) {
       if (Nearness(attempt.reason) >= Nearness(search->reason)) search->reason = attempt.reason;
       continue;
     }
     if (!best || attempt.pair->score > best->score) best = attempt.pair;
+  }
+  return best;
+}
+
+// What the map stands on, the photo's own part left out: its best pair of views.
+std::optional<InitialPair> Mapper::Impl::BestPairOfMapWithout(PhotoId photo) {
+  std::optional<InitialPair> best;
+  for (const auto& [photo1, view1] : map_.views()) {
+    for (const auto& [photo2, view2] : map_.views()) {
+      if (!(photo1 < photo2) || photo1 == photo || photo2 == photo) continue;
+      const PairAttempt& attempt = TryPair(photo1, photo2);
+      if (!attempt.pair) continue;
+      if (!best || attempt.pair->score > best->score) best = attempt.pair;
+    }
   }
   return best;
 }
@@ -62,16 +93,16 @@ void Mapper::Impl::TryStart(PhotoId photo) {
 // A young map gives way to one from a better pair: its first pair may have had little parallax
 // or shown something else than the facade.
 void Mapper::Impl::ReconsiderStart(PhotoId photo) {
-  const bool is_young =
-      initial_pair_ && static_cast<int>(map_.views().size()) <= options_.bootstrap.max_young_views;
-  if (!is_young) return;
+  if (static_cast<int>(map_.views().size()) > options_.bootstrap.max_young_views) return;
+  const auto start = BestPairOfMapWithout(photo);
+  if (!start) return;
   const bool is_outside = !map_.HasView(photo);
-  const bool is_good = initial_pair_->parallax_deg >= options_.bootstrap.good_parallax_deg;
+  const bool is_good = start->parallax_deg >= options_.bootstrap.good_parallax_deg;
   if (is_good && !is_outside) return;
   PairSearch search;
   const auto pair = BestPairWith(photo, &search);
   if (!pair) return;
-  const bool is_better = pair->score > options_.bootstrap.min_score_gain * initial_pair_->score;
+  const bool is_better = pair->score > options_.bootstrap.min_score_gain * start->score;
   const bool is_outnumbered = !map_.HasView(pair->photo1) && !map_.HasView(pair->photo2) &&
                               PendingPhotos().size() > map_.views().size();
   if (is_better || is_outnumbered) StartFrom(*pair);
@@ -102,13 +133,12 @@ void Mapper::Impl::StartFrom(const InitialPair& pair) {
     if (photo != pair.photo1 && photo != pair.photo2) left_behind.push_back(photo);
   }
   map_ = Map::SuccessorOf(map_);
-  initial_pair_ = pair;
   num_views_at_last_bundle_ = 2;
 
   const Rigid3 cam1_from_map = FirstCameraFromMap();
   AddViewAt(pair.photo1, cam1_from_map);
   AddViewAt(pair.photo2, pair.cam2_from_cam1 * cam1_from_map);
-  ExpandMap(options_.expander, camera_, matches_, records_, pair.photo2, &map_);
+  ExpandFrom(pair.photo2, {pair.photo1});
   const int num_matches =
       static_cast<int>(matches_.Match(records_.at(pair.photo1), records_.at(pair.photo2)).size());
   for (const PhotoId photo : {pair.photo1, pair.photo2}) {

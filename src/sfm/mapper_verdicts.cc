@@ -78,11 +78,9 @@ void Mapper::Impl::PublishRefusal(PhotoId photo,
   verdict.num_matches = location.localization.num_matches;
   verdict.num_inliers = static_cast<int>(location.localization.inliers.size());
   verdict.median_error_px = location.localization.median_error_px;
-  verdict.hint =
-      reason == RefusalReason::kNone
-          ? FirstPhotoHint()
-          : HintFor(reason,
-                    location.views.empty() ? std::string() : records_.at(location.views[0]).name);
+  const std::string likest =
+      location.views.empty() ? std::string() : records_.at(location.views[0]).name;
+  verdict.hint = map_.views().empty() ? HintWithoutMap(reason, likest) : HintFor(reason, likest);
   SetPixels(location, &verdict);
   Publish(std::move(verdict));
 }
@@ -94,7 +92,6 @@ void Mapper::Impl::PublishAccepted(PhotoId photo, const Location& location) {
   verdict.num_inliers = static_cast<int>(location.localization.inliers.size());
   verdict.median_error_px = location.localization.median_error_px;
   SetPixels(location, &verdict);
-  last_accepted_ = photo;
   Publish(std::move(verdict));
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -23,6 +24,10 @@ struct PhotoRecord {
   Timestamp exposure_time;
   std::shared_ptr<const FeatureSet> features;
   std::vector<Eigen::Vector2d> normalized;  // (X/Z, Y/Z) of each feature's ray, undistorted.
+
+  // SIFT gives one spot a feature for each of its dominant orientations. All of them can be
+  // matched, but they measure one point: the first stands for them in tracks.
+  std::vector<std::uint32_t> first_at_spot;
   std::shared_ptr<const FeatureGrid> grid;
 };
 

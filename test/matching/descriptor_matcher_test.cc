@@ -89,6 +89,22 @@ TEST(MatchDescriptors, AcceptsTheOnlyCandidate) {
   EXPECT_THAT(Match(OnALine({90}), OnALine({100})), ElementsAre(std::pair(0, 0)));
 }
 
+TEST(MatchDescriptors, WidelyKeepsTheLessDistinctAndSaysSo) {
+  // Ratios 0.7 (7 and 10), 0.8 (8 and 10) and 0.9 (9 and 10).
+  const DescriptorMatrix rows = OnALine({20, 100, 180});
+  const DescriptorMatrix columns = OnALine({27, 10, 108, 90, 189, 170});
+  MatcherOptions options;
+  options.max_ratio = 0.75;
+  options.max_wide_ratio = 0.85;
+  const auto matches = MatchDescriptorsWidely(options, rows, columns);
+  ASSERT_EQ(matches.size(), 2U);
+  EXPECT_EQ(matches[0].idx2, 0U);
+  EXPECT_TRUE(matches[0].is_distinct);
+  EXPECT_EQ(matches[1].idx2, 2U);
+  EXPECT_FALSE(matches[1].is_distinct);
+  EXPECT_EQ(MatchDescriptors(options, rows, columns).size(), 1U);
+}
+
 TEST(MatchDescriptors, RefusesOptionsWithProblems) {
   MatcherOptions options;
   options.max_ratio = 1.5;

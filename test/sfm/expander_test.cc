@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <utility>
@@ -287,6 +288,75 @@ TEST_F(ExpanderTest, CullsLandmarksWithoutParallax) {
   Cull();
   EXPECT_EQ(map_.num_landmarks(), 0U);
   EXPECT_EQ(test::ContradictionIn(map_), "");
+}
+
+// A second feature at the spot of each, of another orientation and so of other looks.
+ScenePhoto WithSecondOrientations(const ScenePhoto& photo, const ScenePhoto& looks) {
+  ScenePhoto doubled;
+  doubled.features.descriptors.resize(2 * photo.features.descriptors.rows(), kDescriptorSize);
+  for (std::size_t i = 0; i < photo.features.size(); ++i) {
+    for (const ScenePhoto* source : {&photo, &looks}) {
+      const auto row = static_cast<Eigen::Index>(doubled.features.size());
+      Feature feature = photo.features.features[i];
+      feature.orientation_rad = source == &photo ? 0.0F : 2.0F;
+      doubled.features.features.push_back(feature);
+      doubled.features.colors.push_back(photo.features.colors[i]);
+      doubled.features.descriptors.row(row) =
+          source->features.descriptors.row(static_cast<Eigen::Index>(i));
+      doubled.point_of_feature.push_back(photo.point_of_feature[i]);
+    }
+  }
+  return doubled;
+}
+
+TEST_F(ExpanderTest, ASpotOfSeveralOrientationsIsOneLandmark) {
+  Use(FourPhotos());
+  const std::vector<ScenePhoto> other_looks = test::MakeScenePhotos(scene_, /*seed=*/9);
+  for (std::size_t i = 0; i < photos_.size(); ++i) {
+    photos_[i] = WithSecondOrientations(photos_[i], other_looks[i]);
+  }
+  MatchAll();
+  for (std::uint32_t photo = 0; photo < 4; ++photo) {
+    AddView(photo);
+    Expand(photo);
+  }
+  Complete();
+  EXPECT_GT(map_.num_landmarks(), 100U);
+  std::set<int> points;
+  for (const LandmarkId id : map_.LandmarkIds()) {
+    EXPECT_TRUE(points.insert(PointOf(map_.landmark(id).track[0])).second);
+  }
+  ExpectPureTracks();
+}
+
+TEST_F(ExpanderTest, AWidenedPairCountsWithItsLessDistinctMatches) {
+  Use(FourPhotos());
+  // Features of little distinction: half-way between their point's looks and another's.
+  DescriptorMatrix& descriptors = photos_[1].features.descriptors;
+  for (Eigen::Index i = 0; i + 1 < descriptors.rows(); i += 2) {
+    for (Eigen::Index k = 0; k < kDescriptorSize; ++k) {
+      descriptors(i, k) =
+          static_cast<std::uint8_t>((11 * descriptors(i, k) + 9 * descriptors(i + 1, k)) / 20);
+    }
+  }
+  records_ = test::MakeRecords(scene_.camera, photos_);
+  const PhotoRecord& first = records_.at({0});
+  const PhotoRecord& second = records_.at({1});
+  const std::size_t num_distinct = matches_.Match(second, first).size();
+  const std::vector<FeatureMatch> all = matches_.MatchWidely(second, first);
+  ASSERT_GT(all.size(), num_distinct + 20);
+  const auto weak = std::find_if(
+      all.begin(), all.end(), [](const FeatureMatch& match) { return !match.is_distinct; });
+  const auto is_known = [&] {
+    const std::vector<Observation>& others = matches_.MatchesOf({{0}, weak->idx2});
+    return std::count(others.begin(), others.end(), Observation{{1}, weak->idx1});
+  };
+  EXPECT_EQ(is_known(), 0);
+  matches_.Widen({0}, {1});
+  matches_.Widen({1}, {0});
+  EXPECT_EQ(is_known(), 1);
+  EXPECT_EQ(matches_.Match(second, first).size(), all.size());
+  EXPECT_EQ(matches_.Match(first, second).size(), all.size());
 }
 
 TEST_F(ExpanderTest, MatchesAPairOnceInEitherDirection) {

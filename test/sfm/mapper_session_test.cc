@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
+#include <memory>
 #include <vector>
 
 #include "test/sfm/equal_deltas.h"
@@ -17,6 +19,7 @@ using test::ExpectEqual;
 using test::Flight;
 using test::Recorder;
 using test::RowOfTwelve;
+using test::SceneOptions;
 
 constexpr double kMaxCenterError_m = 0.05;
 
@@ -128,6 +131,68 @@ TEST(MapperSession, RestoredGoesOnWhereItWas) {
   EXPECT_EQ(heard.NumAccepted(), 11);
   restored.Finish();
   ExpectEqual(heard.replica.Snapshot(), restored.map().Snapshot());
+}
+
+// Flies the photos in that order; after each, if asked to, a new mapper goes on from what was
+// stored.
+struct Outcome {
+  std::map<PhotoId, VerdictStatus> statuses;
+  std::map<PhotoId, Eigen::Vector3d> centers;
+};
+
+Outcome FlyAll(const Camera& camera, const std::vector<MapperPhoto>& photos, bool is_interrupted) {
+  Recorder heard;
+  auto mapper = std::make_unique<Mapper>(MapperOptions(), camera, &heard);
+  std::vector<MapperPhoto> stored;
+  for (const MapperPhoto& photo : photos) {
+    mapper->Add(photo);
+    stored.push_back(photo);
+    if (!is_interrupted) continue;
+    std::vector<PhotoVerdict> verdicts;
+    for (const auto& [id, verdict] : heard.latest) verdicts.push_back(verdict);
+    mapper = std::make_unique<Mapper>(MapperOptions(), camera, &heard);
+    mapper->Restore(stored, verdicts, heard.replica.Snapshot());
+  }
+  mapper->Finish();
+  Outcome outcome;
+  for (const auto& [id, verdict] : heard.latest) outcome.statuses[id] = verdict.status;
+  for (const auto& [id, view] : mapper->map().views()) {
+    outcome.centers[id] = view.cam_from_map.TargetOriginInSource();
+  }
+  return outcome;
+}
+
+TEST(MapperSession, IsTheSameWhenRestartedAfterEachPhoto) {
+  // It begins with a pair of little parallax and with photos of something else: the map starts anew
+  // on the way.
+  SceneOptions options = RowOfTwelve();
+  options.num_cameras = 2;
+  options.spacing_m = 0.45;
+  Flight near(options);
+  options.num_cameras = 7;
+  options.spacing_m = 2.5;
+  Flight apart(options);
+  std::vector<MapperPhoto> photos = {near.PhotoOf(0), near.PhotoOf(1), test::MakeForeignPhoto(2)};
+  for (std::uint32_t i = 0; i < 7; ++i) {
+    MapperPhoto photo = apart.PhotoOf(i);
+    photo.id = {10 + i};
+    photo.analysis.content_hash += 10;
+    photos.push_back(photo);
+  }
+  const Outcome whole = FlyAll(apart.scene().camera, photos, /*is_interrupted=*/false);
+  const Outcome resumed = FlyAll(apart.scene().camera, photos, /*is_interrupted=*/true);
+  EXPECT_EQ(resumed.statuses, whole.statuses);
+  ASSERT_EQ(whole.centers.size(), 9U);
+  std::vector<Eigen::Vector3d> found;
+  std::vector<Eigen::Vector3d> expected;
+  for (const auto& [id, center] : resumed.centers) {
+    found.push_back(center);
+    expected.push_back(whole.centers.at(id));
+  }
+  const auto whole_from_resumed = AlignPoints(found, expected);
+  ASSERT_TRUE(whole_from_resumed);
+  const std::vector<double> distances = AlignmentResiduals(*whole_from_resumed, found, expected);
+  EXPECT_LT(*std::max_element(distances.begin(), distances.end()), 0.005);  // Of a depth of 10.
 }
 
 TEST(MapperSession, RestoredKnowsItsDuplicates) {

@@ -51,6 +51,28 @@ TEST(MapperStart, WaitsWhileTheCameraOnlyTurns) {
   }
 }
 
+TEST(MapperStart, SaysWhatIsMissingWhenOnePhotoIsAll) {
+  Flight flight(RowOfTwelve());
+  flight.AddFirst(1);
+  flight.mapper().Finish();
+  EXPECT_EQ(flight.verdict(0).status, VerdictStatus::kRefused);
+  EXPECT_THAT(flight.verdict(0).hint, testing::HasSubstr("a second one"));
+  EXPECT_THAT(flight.verdict(0).hint, testing::HasSubstr("to the side"));
+}
+
+TEST(MapperStart, SaysWhatIsMissingWhenNoTwoPhotosOverlap) {
+  Flight flight(RowOfTwelve());
+  flight.Add(0);
+  flight.Add(9);
+  flight.mapper().Finish();
+  EXPECT_TRUE(flight.map().views().empty());
+  for (const std::uint32_t id : {0U, 9U}) {
+    EXPECT_EQ(flight.verdict(id).reason, RefusalReason::kNoOverlap) << id;
+    EXPECT_THAT(flight.verdict(id).hint, testing::Not(testing::HasSubstr("of the model")));
+    EXPECT_THAT(flight.verdict(id).hint, testing::HasSubstr("to the side"));
+  }
+}
+
 TEST(MapperStart, TakesInThePhotosOfTheHoverOnceTheCameraMoves) {
   SceneOptions options = RowOfTwelve();
   options.num_cameras = 3;

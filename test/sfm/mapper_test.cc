@@ -131,6 +131,36 @@ TEST(Mapper, RefusesAPhotoOfSomethingElse) {
   EXPECT_FALSE(flight.map().HasView({100}));
 }
 
+// Details that look the same in other places, as stones do.
+TEST(Mapper, RefusesAPhotoWhoseMatchesAgreeByChanceAsOneOfSomethingElse) {
+  Flight flight(RowOfTwelve());
+  flight.AddFirst(5);
+  MapperPhoto photo = MakeForeignPhoto(100);
+  const DescriptorMatrix& known = flight.photos()[2].features.descriptors;
+  photo.analysis.features.descriptors.topRows(150) = known.topRows(150);
+  flight.mapper().Add(photo);
+  flight.mapper().Finish();
+  EXPECT_GE(flight.verdict(100).num_matches, 30);
+  EXPECT_EQ(flight.verdict(100).status, VerdictStatus::kRefused);
+  EXPECT_EQ(flight.verdict(100).reason, RefusalReason::kNoOverlap);
+  EXPECT_THAT(flight.verdict(100).hint, HasSubstr("nothing of the model"));
+}
+
+TEST(Mapper, LocatesAPhotoOfWhichHardlyAMatchIsDistinct) {
+  Flight flight(RowOfTwelve());
+  flight.AddFirst(4);
+  // Each feature looks almost as much like another one.
+  DescriptorMatrix& looks = flight.photos()[4].features.descriptors;
+  const DescriptorMatrix others = looks.colwise().reverse();
+  for (Eigen::Index i = 0; i < looks.size(); ++i) {
+    looks.data()[i] = static_cast<std::uint8_t>((11 * looks.data()[i] + 9 * others.data()[i]) / 20);
+  }
+  flight.AddAs(4, 4);
+  EXPECT_EQ(flight.verdict(4).status, VerdictStatus::kAccepted);
+  flight.mapper().Finish();
+  EXPECT_LT(flight.LargestCenterError(), kMaxCenterError_m);
+}
+
 TEST(Mapper, NamesTheFirstOfTwoEqualFiles) {
   Flight flight(RowOfTwelve());
   flight.AddFirst(3);

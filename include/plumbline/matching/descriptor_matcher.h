@@ -14,6 +14,7 @@ namespace plumb {
 struct FeatureMatch {
   std::uint32_t idx1 = 0;
   std::uint32_t idx2 = 0;
+  bool is_distinct = true;  // Passes max_ratio.
 };
 
 // Exact nearest neighbours in both directions, with Lowe's ratio test and the mutual test.
@@ -22,7 +23,12 @@ std::vector<FeatureMatch> MatchDescriptors(const MatcherOptions& options,
                                            const DescriptorMatrix& descriptors1,
                                            const DescriptorMatrix& descriptors2);
 
-// The same with only the first (largest) `max_features` rows of each.
+// The same with max_wide_ratio in place of max_ratio, where that is greater.
+std::vector<FeatureMatch> MatchDescriptorsWidely(const MatcherOptions& options,
+                                                 const DescriptorMatrix& descriptors1,
+                                                 const DescriptorMatrix& descriptors2);
+
+// MatchDescriptors with only the first (largest) `max_features` rows of each.
 std::vector<FeatureMatch> MatchLargestFeatures(const MatcherOptions& options,
                                                const DescriptorMatrix& descriptors1,
                                                const DescriptorMatrix& descriptors2,

@@ -13,6 +13,11 @@ struct MatcherOptions {
   // took the mean error of Herz-Jesus-P8 over five orders from 3.4-3.7 mm to 3.1-3.4 mm.
   double max_ratio = 0.7;
 
+  // A photo that the matches within max_ratio do not place is tried with those within this, and a
+  // view of few landmarks is expanded with them: it was taken far from all others, and few of its
+  // features look as they did.
+  double max_wide_ratio = 0.85;
+
   // Threads of one call; the matches do not depend on it. One, because the callers already
   // match several photos side by side.
   int num_threads = 1;
@@ -24,6 +29,7 @@ struct MatcherOptions {
 template <typename Visitor>
 void VisitFields(MatcherOptions& options, Visitor&& visit) {
   visit("max_ratio", options.max_ratio);
+  visit("max_wide_ratio", options.max_wide_ratio);
   visit("num_threads", options.num_threads);
 }
 

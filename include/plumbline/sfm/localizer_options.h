@@ -26,6 +26,10 @@ struct LocalizerOptions {
   // With fewer inliers the pose is not believed.
   int min_num_inliers = 30;
 
+  // With fewer inliers the photo shows something else: wrong matches agree by chance, up to 7 of
+  // 94 between the sides of south_building.
+  int min_num_related_inliers = 12;
+
   // Inliers must lie in this many cells of an 8 x 8 grid over the photo: a pose from
   // one corner is not measured in the others.
   int min_num_cells = 6;
@@ -66,6 +70,7 @@ void VisitFields(LocalizerOptions& options, Visitor&& visit) {
   visit("max_refined_error_px", options.max_refined_error_px);
   visit("min_num_matches", options.min_num_matches);
   visit("min_num_inliers", options.min_num_inliers);
+  visit("min_num_related_inliers", options.min_num_related_inliers);
   visit("min_num_cells", options.min_num_cells);
   visit("max_second_pose_ratio", options.max_second_pose_ratio);
   visit("same_pose_angle_deg", options.same_pose_angle_deg);
