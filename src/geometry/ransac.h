@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include "geometry/sampler.h"
 #include "geometry/sequential_test.h"
+#include "geometry/truncated_cost.h"
 
 namespace plumb {
 
@@ -22,16 +22,7 @@ struct RansacOptions {
   int random_seed = 0;
 };
 
-template <typename Model>
-struct RansacResult {
-  Model model;
-  double cost = std::numeric_limits<double>::infinity();  // Sum of min(error^2 / bound^2, 1).
-  int num_inliers = 0;
-  int num_iterations = 0;
-};
-
-// Locally optimised RANSAC (Chum, Matas & Kittler, DAGM 2003) with truncated squared errors
-// (Torr & Zisserman's MSAC, CVIU 78(1), 2000). `Problem` has
+// Locally optimised RANSAC (Chum, Matas & Kittler, DAGM 2003). `Problem` has
 //   using Model; static constexpr int kSampleSize;
 //   int size() const;                                      matches
 //   void Solve(const std::array<int, kSampleSize>&, std::vector<Model>*) const;   appends
@@ -46,7 +37,7 @@ class Ransac {
   Ransac(const RansacOptions& options, const Problem& problem)
       : options_(options),
         problem_(problem),
-        inverse_bound2_(1.0 / (options.max_error * options.max_error)),
+        cost_(options.max_error, problem),
         sampler_(options.random_seed) {}
 
   // Nothing if no sample gave a model.
@@ -75,23 +66,13 @@ class Ransac {
     return best_;
   }
 
-  std::vector<char> InlierMask(const Model& model) const {
-    std::vector<char> is_inlier(static_cast<std::size_t>(problem_.size()), 0);
-    for (int i = 0; i < problem_.size(); ++i) {
-      is_inlier[static_cast<std::size_t>(i)] = RelativeError2(model, i) < 1.0 ? 1 : 0;
-    }
-    return is_inlier;
-  }
+  std::vector<char> InlierMask(const Model& model) const { return cost_.InlierMask(model); }
 
  private:
   // Enough for a stable local optimum; more cost time at every new best model.
   static constexpr int kMaxLocalInliers = 300;
   static constexpr int kLocalSteps = 3;
   static constexpr int kFinalSteps = 5;
-
-  double RelativeError2(const Model& model, int match) const {
-    return problem_.SquaredError(model, match) * inverse_bound2_;
-  }
 
   // Whether the model became the best.
   bool TryModel(const Model& model) {
@@ -102,7 +83,7 @@ class Ransac {
     // From a random match on, lest always the same few decide.
     int match = sampler_.Index(size);
     for (int tried = 1; tried <= size; ++tried) {
-      const double error2 = RelativeError2(model, match);
+      const double error2 = cost_.RelativeError2(model, match);
       if (++match == size) match = 0;
       if (error2 < 1.0) {
         ++result.num_inliers;
@@ -123,28 +104,14 @@ class Ransac {
     return true;
   }
 
-  RansacResult<Model> Evaluate(const Model& model) const {
-    RansacResult<Model> result{model, 0.0, 0, 0};
-    for (int i = 0; i < problem_.size(); ++i) {
-      const double error2 = RelativeError2(model, i);
-      result.cost += std::min(error2, 1.0);
-      result.num_inliers += error2 < 1.0 ? 1 : 0;
-    }
-    return result;
-  }
-
   // Refines the best model on its inliers, at first those within twice the bound: a
   // minimal sample's noise hides good ones.
   void Improve(int max_inliers, int max_steps) {
     RansacResult<Model> current = best_;
     for (int step = 0; step < max_steps; ++step) {
-      const double bound2 = step == 0 ? 4.0 : 1.0;
-      std::vector<int> inliers;
-      for (int i = 0; i < problem_.size(); ++i) {
-        if (RelativeError2(current.model, i) < bound2) inliers.push_back(i);
-      }
+      std::vector<int> inliers = cost_.Within(current.model, step == 0 ? 4.0 : 1.0);
       Thin(max_inliers, &inliers);
-      current = Evaluate(problem_.Refine(current.model, inliers));
+      current = cost_.Evaluate(problem_.Refine(current.model, inliers));
       if (current.cost < best_.cost) {
         best_ = current;
       } else if (step > 0) {
@@ -172,7 +139,7 @@ class Ransac {
 
   RansacOptions options_;
   const Problem& problem_;
-  double inverse_bound2_;
+  TruncatedCost<Problem> cost_;
   Sampler sampler_;
   SequentialTest test_;
   RansacResult<Model> best_ = {};
