@@ -154,8 +154,9 @@ class Band {
     for (int x = 0; x < radiance_.cols; ++x) {
       const float right = static_cast<float>(x) - middle_x;
       const float factor = in_middle - fall * right * right;
+      // Light below zero, or no number, would have no noise, and no tone then.
       for (int c = 0; c < kChannels; ++c)
-        first[kChannels * x + c] = factor * from[kChannels * x + c];
+        first[kChannels * x + c] = std::max(0.0F, factor * from[kChannels * x + c]);
     }
     const float* last = first + kChannels * (radiance_.cols - 1);
     for (int i = 0; i < kChannels * border_.width; ++i) {

@@ -104,6 +104,18 @@ TEST(ExposePhoto, NoiseFollowsLightAndSensitivity) {
   }
 }
 
+TEST(ExposePhoto, TakesLightBelowZeroForNone) {
+  cv::Mat radiance = Flat(0.2);
+  radiance.at<cv::Vec3f>(20, 30) = {-0.01F, 0.2F, NAN};
+  SensorOptions options;
+  options.motion_blur = false;
+  options.lens_blur_px = 0.0;
+  const cv::Mat picture = ExposePhoto(options, test::MakeCamera(), radiance, Neutral(), {});
+  EXPECT_LT(picture.at<cv::Vec3b>(20, 30)[0], 10);
+  EXPECT_GT(picture.at<cv::Vec3b>(20, 30)[1], 50);
+  EXPECT_LT(picture.at<cv::Vec3b>(20, 30)[2], 10);
+}
+
 TEST(ExposePhoto, NoiseIsAnotherOneInEachPhotoAndTheSameOnAnyNumberOfThreads) {
   SensorOptions options;
   options.max_iso = 6400;
