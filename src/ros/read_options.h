@@ -36,8 +36,10 @@ inline const char* TypeName(const std::string&) { return "a text"; }
 // naming the parameter with `prefix`.
 class OptionReader {
  public:
-  OptionReader(XmlRpc::XmlRpcValue tree, std::string prefix, std::vector<std::string>* problems)
-      : tree_(std::move(tree)), prefix_(std::move(prefix)), problems_(problems) {}
+  OptionReader(const XmlRpc::XmlRpcValue& tree,
+               std::string prefix,
+               std::vector<std::string>* problems)
+      : tree_(tree), prefix_(std::move(prefix)), problems_(problems) {}
 
   template <typename Field>
   void operator()(const char* name, Field& field) {
