@@ -6,8 +6,8 @@ SHELL := /bin/bash
 BUILD ?= build
 SANITIZED := build-sanitize
 JOBS ?= $(shell nproc)
-DATA := $(or $(PLUMBLINE_DATA),$(abspath ../shared/data))
-PHOTOS ?= $(DATA)/fountain-P11/photos
+SIMULATED := $(BUILD)/demo_flight
+PHOTOS ?= $(SIMULATED)/photos
 CAMERA ?= $(dir $(patsubst %/,%,$(PHOTOS)))camera.yaml
 
 .PHONY: help has-photos deps build test test-sanitize bench demo docs format lint clean
@@ -40,10 +40,17 @@ bench: build ## Measure accuracy and seconds a photo on the shared scenes, into 
 	/usr/bin/python3 scripts/bench.py
 
 has-photos:
-	@test -d "$(PHOTOS)" || { echo "demo: no folder $(PHOTOS): give PHOTOS=dir CAMERA=camera.yaml, or" \
-	  "PLUMBLINE_DATA= the folder that holds fountain-P11" >&2; exit 1; }
+	@test "$(PHOTOS)" = "$(SIMULATED)/photos" -o -d "$(PHOTOS)" || { \
+	  echo "demo: no folder $(PHOTOS): give PHOTOS=dir CAMERA=camera.yaml, or neither" >&2; exit 1; }
 
-demo: has-photos build ## Fly PHOTOS= with CAMERA= through the live ROS graph and RViz (default: fountain-P11)
+# Made anew when the program or the scenario is newer.
+$(SIMULATED)/.complete: devel/lib/plumbline/plumbline config/scenarios/demo.yaml
+	rm -rf $(@D)
+	source devel/setup.bash && rosrun plumbline plumbline simulate --scenario demo --output $(@D)
+	touch $@
+
+demo: has-photos build ## Fly a simulated facade, or PHOTOS= with CAMERA=, through the live ROS graph and RViz
+	@test "$(PHOTOS)" != "$(SIMULATED)/photos" || $(MAKE) --no-print-directory $(SIMULATED)/.complete
 	source devel/setup.bash && scripts/demo.py --photos "$(PHOTOS)" --camera "$(CAMERA)" --out $(BUILD)/demo
 
 docs: build ## Write the generated pages of docs/ anew

@@ -102,17 +102,27 @@ def print_verdicts(verdicts):
 
 
 def print_accuracy(session, truth):
-    """Prints what `plumbline evaluate` measures against the true poses, if there are any."""
-    if not truth.exists():
+    """Prints what `plumbline evaluate` measures against the truth in a folder, if there is any."""
+    poses, surface = truth / "poses.csv", truth / "surface.ply"
+    if not poses.exists():
         return
     run = subprocess.run(["rosrun", "plumbline", "plumbline", "evaluate", "--session",
-                          str(session), "--truth", str(truth)], capture_output=True, text=True)
+                          str(session), "--truth", str(poses)]
+                         + (["--surface", str(surface)] if surface.exists() else []),
+                         capture_output=True, text=True)
     if run.returncode != 0:
         print(f"No accuracy: {run.stderr.strip()}")
         return
-    error = json.loads(run.stdout)["center_error_mm"]
-    print(f"Camera centres against {truth}: mean {error['mean']:.2f} mm, "
-          f"largest {error['max']:.2f} mm")
+    result = json.loads(run.stdout)
+    error = result["center_error_mm"]
+    print(f"Camera centres against {poses}: mean {error['mean']:.2f} mm, "
+          f"largest {error['max']:.2f} mm, {len(result['wrong'])} wrong poses")
+    points = result.get("surface")
+    if points:
+        print(f"Points against {surface}: half within {points['accuracy']['median_mm']:.1f} mm, "
+              f"90 % within {points['accuracy']['p90_mm']:.1f} mm")
+        if result["wall"]:
+            print(f"Largest bend of the flat wall: {result['wall']['max_bend_mm']:.1f} mm")
 
 
 def run_flight(arguments):
@@ -133,7 +143,7 @@ def run_flight(arguments):
         print(f"The flight is not finished: {answer.message}")
     take_picture(arguments.out / f"rviz_{len(photos):03d}.png")
     print_verdicts(verdicts.all())
-    print_accuracy(session, arguments.photos.parent / "ground_truth" / "poses.csv")
+    print_accuracy(session, arguments.photos.parent / "ground_truth")
     print(f"Report: {session / 'report.json'}")
     return len(verdicts.all()) == len(photos)
 
