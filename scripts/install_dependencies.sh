@@ -9,7 +9,7 @@ packages=(
   # Build.
   build-essential ccache cmake pkg-config
   # The core.
-  libceres-dev libcgal-dev libcli11-dev libeigen3-dev libembree-dev libexiv2-dev libjpeg-dev
+  libcairo2-dev libceres-dev libcgal-dev libcli11-dev libeigen3-dev libembree-dev libexiv2-dev libjpeg-dev
   libnanoflann-dev libopencv-dev libproj-dev libsqlite3-dev libsuitesparse-dev libyaml-cpp-dev
   nlohmann-json3-dev zlib1g-dev
   # ROS 1.
@@ -17,7 +17,7 @@ packages=(
   python3-sensor-msgs python3-std-srvs python3-tf2-ros python3-visualization-msgs
   ros-core-dev rosbash rviz
   # Tests and the demo.
-  imagemagick libbenchmark-dev libgl1-mesa-dri libgmock-dev libgtest-dev python3-numpy
+  imagemagick libapriltag-dev libbenchmark-dev libgl1-mesa-dri libgmock-dev libgtest-dev libopencv-contrib-dev python3-numpy
   python3-yaml x11-utils xauth xvfb
 )
 if [[ ${1:-} == --lint ]]; then

@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "marker/candidate_search.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "image/parallel_for.h"
+
+namespace plumb {
+namespace {
+
+// A level of the pyramid shows diameters of kMinDiameter to kMaxDiameter of its own pixels; the
+// next level, of half its size, takes over well before.
+constexpr double kMinDiameter = 6.0;
+constexpr double kMaxDiameter = 48.0;
+// Sides of the local mean's square. The wide one holds a tilted marker of any size; the narrow one,
+// for the finest level alone, keeps a small one apart from what lies beyond its quiet zone.
+constexpr int kWideWindow = 31;
+constexpr int kNarrowWindow = 13;
+constexpr int kBandHeight = 192;
+constexpr int kBandMargin = static_cast<int>(kMaxDiameter) + 2;
+
+// An outline's area over that of the ellipse of its second moments. 1 for ellipses, 0.955 for
+// a rectangle; digital discs of 6 pixels stay above 0.96, but specks on their rim cost some more.
+constexpr double kMinEllipticity = 0.93;
+
+bool HasPossibleSize(const cv::Rect& box, const MarkerDetectorOptions& options) {
+  const int longer = std::max(box.width, box.height);
+  const int shorter = std::min(box.width, box.height);
+  return longer <= kMaxDiameter && longer >= kMinDiameter - 2.0 && shorter >= 3 &&
+         shorter >= 0.8 * options.min_axis_ratio * longer;
+}
+
+// The ellipse of an outline's second moments; nothing if the outline is no ellipse.
+std::optional<Ellipse> EllipseOfOutline(const std::vector<cv::Point>& outline) {
+  const cv::Moments moments = cv::moments(outline);
+  if (moments.m00 < 4.0) return std::nullopt;
+  Eigen::Matrix2d spread;
+  spread << moments.mu20, moments.mu11, moments.mu11, moments.mu02;
+  spread /= moments.m00;
+  const double determinant = spread.determinant();
+  if (determinant <= 0.0) return std::nullopt;
+  if (moments.m00 < kMinEllipticity * 4.0 * M_PI * std::sqrt(determinant)) return std::nullopt;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(4.0 * spread);
+  Ellipse ellipse =
+      EllipseOfAffine({moments.m10 / moments.m00, moments.m01 / moments.m00}, eigen.operatorSqrt());
+  ellipse.semi_major_px += 0.5;  // The outline runs through the centres of the outermost pixels.
+  ellipse.semi_minor_px += 0.5;
+  return ellipse;
+}
+
+// One level of the pyramid.
+class Level {
+ public:
+  Level(const MarkerDetectorOptions& options, cv::Mat gray, double reduction, int window)
+      : options_(options), gray_(std::move(gray)), reduction_(reduction), window_(window) {}
+
+  int num_bands() const { return (gray_.rows + kBandHeight - 1) / kBandHeight; }
+
+  // Blobs whose box is centred in a band.
+  std::vector<MarkerCandidate> SearchBand(int band) const {
+    const int first = band * kBandHeight;
+    const int last = std::min(gray_.rows, first + kBandHeight);
+    const cv::Range rows(std::max(0, first - kBandMargin),
+                         std::min(gray_.rows, last + kBandMargin));
+    const cv::Mat dark = DarkPixels(rows);
+    std::vector<std::vector<cv::Point>> outlines;
+    cv::findContours(
+        dark, outlines, cv::RETR_LIST, cv::CHAIN_APPROX_NONE, cv::Point(0, rows.start));
+    std::vector<MarkerCandidate> candidates;
+    for (const std::vector<cv::Point>& outline : outlines) {
+      const cv::Rect box = cv::boundingRect(outline);
+      const int middle = box.y + box.height / 2;
+      if (middle < first || middle >= last || !HasPossibleSize(box, options_)) continue;
+      if (const std::optional<MarkerCandidate> candidate = Candidate(outline)) {
+        candidates.push_back(*candidate);
+      }
+    }
+    return candidates;
+  }
+
+ private:
+  cv::Mat DarkPixels(const cv::Range& rows) const {
+    const cv::Mat part = gray_.rowRange(rows);
+    cv::Mat mean;
+    cv::blur(part, mean, {window_, window_}, {-1, -1}, cv::BORDER_REPLICATE);
+    cv::subtract(mean, part, mean);  // Saturates at 0.
+    cv::Mat dark;
+    cv::threshold(mean, dark, options_.min_darkness, 255.0, cv::THRESH_BINARY);
+    return dark;
+  }
+
+  std::optional<MarkerCandidate> Candidate(const std::vector<cv::Point>& outline) const {
+    std::optional<Ellipse> ellipse = EllipseOfOutline(outline);
+    if (!ellipse) return std::nullopt;
+    if (ellipse->semi_minor_px < options_.min_axis_ratio * ellipse->semi_major_px) {
+      return std::nullopt;
+    }
+    // Pixel (0, 0) of a level is centred amid reduction x reduction pixels of the photo.
+    ellipse->center_px = (ellipse->center_px.array() + 0.5) * reduction_ - 0.5;
+    ellipse->semi_major_px *= reduction_;
+    ellipse->semi_minor_px *= reduction_;
+    return MarkerCandidate{*ellipse, reduction_};
+  }
+
+  const MarkerDetectorOptions& options_;
+  cv::Mat gray_;
+  double reduction_;
+  int window_;
+};
+
+// Cut to whole pixels of the next level.
+cv::Mat Reduced(const cv::Mat& gray, int factor) {
+  const cv::Size size(gray.cols / factor, gray.rows / factor);
+  if (factor == 1 || size.empty()) return gray;
+  cv::Mat reduced;
+  cv::resize(gray(cv::Rect(0, 0, size.width * factor, size.height * factor)),
+             reduced,
+             size,
+             0,
+             0,
+             cv::INTER_AREA);
+  return reduced;
+}
+
+std::vector<Level> BuildPyramid(const MarkerDetectorOptions& options, const cv::Mat& gray) {
+  std::vector<Level> levels;
+  int reduction = std::max(1, static_cast<int>(options.min_diameter_px / kMinDiameter));
+  cv::Mat level = Reduced(gray, reduction);
+  levels.emplace_back(options, level, reduction, kNarrowWindow);
+  while (true) {
+    levels.emplace_back(options, level, reduction, kWideWindow);
+    if (std::min(level.cols, level.rows) < kMaxDiameter) return levels;
+    level = Reduced(level, 2);
+    reduction *= 2;
+  }
+}
+
+}  // namespace
+
+std::vector<MarkerCandidate> FindCandidates(const MarkerDetectorOptions& options,
+                                            const cv::Mat& gray) {
+  const std::vector<Level> levels = BuildPyramid(options, gray);
+  std::vector<std::pair<const Level*, int>> bands;
+  for (const Level& level : levels) {
+    for (int band = 0; band < level.num_bands(); ++band) bands.emplace_back(&level, band);
+  }
+  std::vector<std::vector<MarkerCandidate>> found(bands.size());
+  ParallelFor(options.num_threads, static_cast<int>(bands.size()), 1, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      const auto& [level, band] = bands[static_cast<std::size_t>(i)];
+      found[static_cast<std::size_t>(i)] = level->SearchBand(band);
+    }
+  });
+  std::vector<MarkerCandidate> candidates;
+  for (const std::vector<MarkerCandidate>& of_band : found) {
+    candidates.insert(candidates.end(), of_band.begin(), of_band.end());
+  }
+  return candidates;
+}
+
+}  // namespace plumb

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "marker/circle_edge.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace plumb {
+namespace {
+
+constexpr double kSampleStepPx = 0.5;
+constexpr int kMinDirections = 24;
+constexpr int kMaxDirections = 72;
+constexpr double kEdgePointDistancePx = 1.2;
+constexpr int kNumFits = 3;
+
+// Grey values along a ray, at steps of kSampleStepPx about the ellipse.
+std::vector<double> SampleRay(const GraySampler& gray,
+                              const Eigen::Vector2d& on_ellipse_px,
+                              const Eigen::Vector2d& outward,
+                              int half_count) {
+  std::vector<double> values;
+  for (int i = -half_count; i <= half_count; ++i) {
+    values.push_back(gray.At(on_ellipse_px + i * kSampleStepPx * outward));
+  }
+  return values;
+}
+
+// Offset of the steepest rise from the middle [px].
+std::optional<double> FindRise(const std::vector<double>& values, double sign, double min_step) {
+  const int count = static_cast<int>(values.size());
+  const auto slope = [&](int i) {
+    return sign *
+           (values[static_cast<std::size_t>(i + 1)] - values[static_cast<std::size_t>(i - 1)]);
+  };
+  int steepest = 1;
+  for (int i = 2; i + 1 < count; ++i) {
+    if (slope(i) > slope(steepest)) steepest = i;
+  }
+  if (slope(steepest) < min_step) return std::nullopt;
+  double weight_sum = 0.0;
+  double sum = 0.0;
+  for (int i = std::max(1, steepest - 3); i <= std::min(count - 2, steepest + 3); ++i) {
+    const double weight = std::max(0.0, slope(i));
+    weight_sum += weight;
+    sum += weight * (i - count / 2);
+  }
+  return kSampleStepPx * sum / weight_sum;
+}
+
+// Points within a distance of an ellipse along the rays from its centre.
+std::vector<Eigen::Vector2d> PointsNear(const std::vector<Eigen::Vector2d>& points_px,
+                                        const Ellipse& ellipse,
+                                        double max_distance_px) {
+  const Eigen::Matrix2d circle_from_pixel = ellipse.PixelFromCircle().inverse();
+  std::vector<Eigen::Vector2d> near;
+  for (const Eigen::Vector2d& point : points_px) {
+    const Eigen::Vector2d from_center = point - ellipse.center_px;
+    const double radius = (circle_from_pixel * from_center).norm();
+    if (std::abs(1.0 - 1.0 / radius) * from_center.norm() <= max_distance_px) {
+      near.push_back(point);
+    }
+  }
+  return near;
+}
+
+}  // namespace
+
+std::optional<Ellipse> RefineEllipse(const GraySampler& gray,
+                                     const Ellipse& ellipse,
+                                     const EdgeSearch& search) {
+  if (!gray.ContainsSquare(ellipse.center_px, ellipse.semi_major_px + search.reach_px + 1.0)) {
+    return std::nullopt;
+  }
+  const double mean_radius_px = 0.5 * (ellipse.semi_major_px + ellipse.semi_minor_px);
+  const int num_directions =
+      std::clamp(static_cast<int>(2.0 * M_PI * mean_radius_px / kEdgePointDistancePx),
+                 kMinDirections,
+                 kMaxDirections);
+  const Eigen::Matrix2d pixel_from_circle = ellipse.PixelFromCircle();
+  const int half_count = static_cast<int>(std::ceil(search.reach_px / kSampleStepPx));
+  std::vector<Eigen::Vector2d> points_px;
+  for (int i = 0; i < num_directions; ++i) {
+    const double angle_rad = 2.0 * M_PI * i / num_directions;
+    const Eigen::Vector2d ray =
+        pixel_from_circle * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
+    const Eigen::Vector2d outward = ray.normalized();
+    const std::optional<double> offset_px =
+        FindRise(SampleRay(gray, ellipse.center_px + ray, outward, half_count),
+                 search.is_dark_inside ? 1.0 : -1.0,
+                 search.min_step);
+    if (offset_px) points_px.push_back(ellipse.center_px + ray + *offset_px * outward);
+  }
+  const std::size_t min_points = static_cast<std::size_t>(search.min_share * num_directions);
+  std::vector<Eigen::Vector2d> agreeing_px = points_px;
+  std::optional<Ellipse> result;
+  for (int i = 0; i < kNumFits; ++i) {
+    if (agreeing_px.size() < min_points) return std::nullopt;
+    result = FitEllipse(agreeing_px);
+    if (!result) return std::nullopt;
+    agreeing_px = PointsNear(points_px, *result, 0.4 + 0.02 * mean_radius_px);
+  }
+  return agreeing_px.size() < min_points ? std::nullopt : result;
+}
+
+}  // namespace plumb

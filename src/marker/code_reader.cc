@@ -1,0 +1,227 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "marker/code_reader.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <bitset>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "plumbline/marker/marker_layout.h"
+
+namespace plumb {
+namespace {
+
+constexpr int kSamplesPerCell = 8;
+constexpr int kNumAngles = kSamplesPerCell * kNumCodeBits;
+using Unrolled = Eigen::Array<double, kNumAngles, 1>;
+using Cells = Eigen::Array<double, kNumCodeBits, 1>;
+
+constexpr double kWhiteRadius = 1.12;
+constexpr double kRingRadius = 0.9;
+constexpr double kInnerBlackRadius = 0.31;
+constexpr std::array<double, 4> kStripeRadii = {0.5, 0.57, 0.64, 0.71};
+
+// Share of the directions that must show the outer circle; blur and a hidden part cost some.
+constexpr double kMinCircleShare = 0.85;
+// Rises as shares of the contrast: of the outer circle, and of the centre disc, which at a
+// diameter of 12 px has a radius of 1.2 px.
+constexpr double kMinCircleRise = 0.4;
+constexpr double kMinDiscRise = 0.1;
+
+// Cells that may be flipped to reach a code, besides the one that the codebook corrects.
+constexpr std::size_t kNumUnsureCells = 5;
+// Bound on the share of the cells' variance that the code explains.
+constexpr double kMinExplained = 0.75;
+constexpr double kTinyVariance = 0.25;  // Half a grey level: rounding.
+
+Eigen::Vector2d Polar(double radius, double angle_rad) {
+  return radius * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
+}
+
+Eigen::Vector2d Apply(const Eigen::Matrix3d& homography, const Eigen::Vector2d& point) {
+  return (homography * point.homogeneous()).hnormalized();
+}
+
+// The grey values along a circle.
+Unrolled Unroll(const GraySampler& gray, const Eigen::Matrix3d& pixel_from_circle, double radius) {
+  Unrolled values;
+  for (int i = 0; i < kNumAngles; ++i) {
+    values(i) = gray.At(Apply(pixel_from_circle, Polar(radius, 2.0 * M_PI * i / kNumAngles)));
+  }
+  return values;
+}
+
+bool ShowsCircles(const MarkerDetectorOptions& options,
+                  const GraySampler& gray,
+                  const Eigen::Matrix3d& pixel_from_circle) {
+  const Unrolled white = Unroll(gray, pixel_from_circle, kWhiteRadius);
+  const Unrolled black = Unroll(gray, pixel_from_circle, kRingRadius);
+  const double contrast = white.mean() - black.mean();
+  if (contrast < 0.5 * options.min_contrast) return false;  // Blur takes up to half of it.
+  const auto num_rises = ((white - black) > kMinCircleRise * contrast).count();
+  if (static_cast<double>(num_rises) < kMinCircleShare * kNumAngles) return false;
+  const double disc = gray.At(Apply(pixel_from_circle, Eigen::Vector2d::Zero()));
+  const double around_disc = Unroll(gray, pixel_from_circle, kInnerBlackRadius).mean();
+  return disc - around_disc > kMinDiscRise * contrast;
+}
+
+// What a cell gives to each neighbour by the blur, by Gauss's integral over the middle of the cell.
+double LeakOf(const Eigen::Matrix3d& pixel_from_circle, double blur_px) {
+  // The derivative at the centre.
+  const Eigen::Matrix3d h = pixel_from_circle / pixel_from_circle(2, 2);
+  const double area_scale =
+      std::abs((h.topLeftCorner<2, 2>() - h.topRightCorner<2, 1>() * h.bottomLeftCorner<1, 2>())
+                   .determinant());
+  const double cell_px = 0.6 * std::sqrt(area_scale) * 2.0 * M_PI / kNumCodeBits;
+  const double sigma = blur_px / cell_px;
+  const auto tail = [sigma](double distance) {
+    return 0.5 * std::erfc(distance / sigma / std::sqrt(2.0));
+  };
+  return 0.5 * (tail(0.5) + 0.5 * (tail(0.2) + tail(0.8)));
+}
+
+// Means over the middles of the cells that begin at sample `start`.
+Cells BinCells(const Unrolled& stripe, int start) {
+  Cells cells;
+  for (int cell = 0; cell < kNumCodeBits; ++cell) {
+    double sum = 0.0;
+    for (int i = 1; i < kSamplesPerCell; ++i) {
+      sum += stripe((start + cell * kSamplesPerCell + i) % kNumAngles);
+    }
+    cells(cell) = sum / (kSamplesPerCell - 1);
+  }
+  return cells;
+}
+
+// Moves a share of each cell to its two neighbours; back, to first order, if it is negative.
+Cells Leak(const Cells& cells, double share) {
+  Cells leaked;
+  for (int i = 0; i < kNumCodeBits; ++i) {
+    const double neighbors =
+        cells((i + 1) % kNumCodeBits) + cells((i + kNumCodeBits - 1) % kNumCodeBits);
+    leaked(i) = cells(i) + share * (neighbors - 2.0 * cells(i));
+  }
+  return leaked;
+}
+
+// Otsu's threshold: least variance within the two classes.
+double Threshold(const Cells& cells) {
+  Cells sorted = cells;
+  std::sort(sorted.begin(), sorted.end());
+  double threshold = 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  for (int num_dark = 2; num_dark <= kNumCodeBits - 2; ++num_dark) {
+    const auto dark = sorted.head(num_dark);
+    const auto bright = sorted.tail(kNumCodeBits - num_dark);
+    const double within =
+        (dark - dark.mean()).square().sum() + (bright - bright.mean()).square().sum();
+    if (within >= least) continue;
+    least = within;
+    threshold = 0.5 * (dark.mean() + bright.mean());
+  }
+  return threshold;
+}
+
+// How well a code explains the cells.
+struct Explanation {
+  CodeMatch match;  // num_errors: cells on the wrong side of the threshold.
+  int start = 0;
+  double residual = 0.0;   // Sum of squares.
+  double explained = 0.0;  // Share of the cells' variance.
+};
+
+Explanation Explain(const Cells& cells, std::uint32_t word, double leak) {
+  Cells bits;
+  for (int i = 0; i < kNumCodeBits; ++i) bits(i) = static_cast<double>((word >> i) & 1U);
+  const Cells expected = Leak(bits, leak);
+  const Cells from_mean = cells - cells.mean();
+  const Cells expected_from_mean = expected - expected.mean();
+  const double slope =
+      std::max(0.0, (from_mean * expected_from_mean).sum() / expected_from_mean.square().sum());
+  Explanation explanation;
+  explanation.residual = (from_mean - slope * expected_from_mean).square().sum();
+  explanation.explained = 1.0 - explanation.residual / (from_mean.square().sum() + kTinyVariance);
+  return explanation;
+}
+
+// The best explanation by each ID, over the words that differ from the thresholded cells in the
+// least sure of them (Chase, A class of algorithms for decoding block codes with channel
+// measurement information, IEEE Trans. Inf. Theory 18(1), 1972, algorithm 2).
+void ExplainAt(const Unrolled& stripe, int start, double leak, std::map<int, Explanation>* best) {
+  const Cells cells = BinCells(stripe, start);
+  const Cells sharp = Leak(cells, -leak);
+  const Cells from_threshold = sharp - Threshold(sharp);
+  std::uint32_t word = 0;
+  std::array<int, kNumCodeBits> by_sureness;
+  for (int i = 0; i < kNumCodeBits; ++i) {
+    by_sureness[static_cast<std::size_t>(i)] = i;
+    if (from_threshold(i) > 0.0) word |= 1U << i;
+  }
+  std::sort(by_sureness.begin(), by_sureness.end(), [&](int a, int b) {
+    return std::abs(from_threshold(a)) < std::abs(from_threshold(b));
+  });
+  const MarkerCodebook& codebook = MarkerCodebook::Get();
+  for (std::uint32_t flips = 0; flips < 1U << kNumUnsureCells; ++flips) {
+    std::uint32_t flipped = word;
+    for (std::size_t i = 0; i < kNumUnsureCells; ++i) {
+      if (((flips >> i) & 1U) != 0) flipped ^= 1U << by_sureness[i];
+    }
+    const std::optional<CodeMatch> match = codebook.Find(flipped);
+    if (!match) continue;
+    const std::uint32_t code = RotateWord(codebook.Word(match->id), match->rotation);
+    Explanation explanation = Explain(cells, code, leak);
+    explanation.match = *match;
+    explanation.match.num_errors = static_cast<int>(std::bitset<kNumCodeBits>(code ^ word).count());
+    explanation.start = start;
+    const auto known = best->find(match->id);
+    if (known == best->end() || known->second.residual > explanation.residual) {
+      (*best)[match->id] = explanation;
+    }
+  }
+}
+
+// Of the best one, by the likelihoods of all under Gaussian noise of its own size.
+double Probability(const std::map<int, Explanation>& by_id, const Explanation& best) {
+  const double variance = best.residual / (kNumCodeBits - 2) + kTinyVariance;
+  double sum = 0.0;
+  for (const auto& [id, explanation] : by_id) {
+    sum += std::exp(-0.5 * (explanation.residual - best.residual) / variance);
+  }
+  return 1.0 / sum;
+}
+
+}  // namespace
+
+std::optional<CodeReading> ReadCode(const MarkerDetectorOptions& options,
+                                    const GraySampler& gray,
+                                    const Eigen::Matrix3d& pixel_from_circle,
+                                    const CodeSearch& search) {
+  if (!ShowsCircles(options, gray, pixel_from_circle)) return std::nullopt;
+  Unrolled stripe = Unrolled::Zero();
+  for (const double radius : kStripeRadii) stripe += Unroll(gray, pixel_from_circle, radius);
+  stripe /= static_cast<double>(kStripeRadii.size());
+  const double leak = LeakOf(pixel_from_circle, search.blur_px);
+  std::map<int, Explanation> by_id;
+  const int num_starts = search.is_upright ? 1 : kSamplesPerCell;
+  for (int start = 0; start < num_starts; ++start) ExplainAt(stripe, start, leak, &by_id);
+  if (by_id.empty()) return std::nullopt;
+  const Explanation& best =
+      std::min_element(by_id.begin(), by_id.end(), [](const auto& a, const auto& b) {
+        return a.second.residual < b.second.residual;
+      })->second;
+  CodeReading reading;
+  reading.match = best.match;
+  reading.angle_rad =
+      2.0 * M_PI * (best.start + kSamplesPerCell * best.match.rotation) / kNumAngles;
+  reading.probability = Probability(by_id, best);
+  if (best.explained < kMinExplained || reading.probability < options.min_probability) {
+    return std::nullopt;
+  }
+  return reading;
+}
+
+}  // namespace plumb

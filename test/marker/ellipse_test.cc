@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plumbline/marker/ellipse.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "test/support/random.h"
+
+namespace plumb::test {
+namespace {
+
+Ellipse MakeEllipse() {
+  Ellipse ellipse;
+  ellipse.center_px = {3000.5, 1200.25};
+  ellipse.semi_major_px = 22.0;
+  ellipse.semi_minor_px = 9.0;
+  ellipse.angle_rad = 2.1;
+  return ellipse;
+}
+
+std::vector<Eigen::Vector2d> PointsOn(const Ellipse& ellipse, int count, double noise_px) {
+  Random random(3);
+  std::vector<Eigen::Vector2d> points;
+  for (int i = 0; i < count; ++i) {
+    const double angle_rad = 2.0 * M_PI * i / count;
+    points.push_back(ellipse.center_px +
+                     ellipse.PixelFromCircle() *
+                         Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad)) +
+                     random.Normal2(noise_px));
+  }
+  return points;
+}
+
+void ExpectNear(const Ellipse& a, const Ellipse& b, double tolerance_px) {
+  EXPECT_LT((a.center_px - b.center_px).norm(), tolerance_px);
+  EXPECT_NEAR(a.semi_major_px, b.semi_major_px, tolerance_px);
+  EXPECT_NEAR(a.semi_minor_px, b.semi_minor_px, tolerance_px);
+  EXPECT_NEAR(a.angle_rad, b.angle_rad, tolerance_px);  // Radians; fits the axes above.
+}
+
+TEST(FitEllipse, FindsTheEllipseOfExactPoints) {
+  const std::optional<Ellipse> fitted = FitEllipse(PointsOn(MakeEllipse(), 24, 0.0));
+  ASSERT_TRUE(fitted);
+  ExpectNear(*fitted, MakeEllipse(), 1e-6);
+}
+
+TEST(FitEllipse, StaysNearUnderNoise) {
+  const std::optional<Ellipse> fitted = FitEllipse(PointsOn(MakeEllipse(), 72, 0.05));
+  ASSERT_TRUE(fitted);
+  ExpectNear(*fitted, MakeEllipse(), 0.05);
+}
+
+TEST(FitEllipse, RefusesTooFewPointsALineAndASpot) {
+  EXPECT_FALSE(FitEllipse(PointsOn(MakeEllipse(), 5, 0.0)));
+  std::vector<Eigen::Vector2d> line;
+  for (int i = 0; i < 10; ++i) line.emplace_back(i, 2.0 * i);
+  EXPECT_FALSE(FitEllipse(line));
+  EXPECT_FALSE(FitEllipse(std::vector<Eigen::Vector2d>(10, Eigen::Vector2d(5.0, 5.0))));
+}
+
+TEST(EllipseOfAffine, ItsOwnAffineGivesItBack) {  // Law: round trip.
+  ExpectNear(EllipseOfAffine(MakeEllipse().center_px, MakeEllipse().PixelFromCircle()),
+             MakeEllipse(),
+             1e-9);
+}
+
+}  // namespace
+}  // namespace plumb::test
