@@ -32,7 +32,7 @@ SessionLock::SessionLock(const std::string& folder) {
   ::close(descriptor_);
   if (cause == EWOULDBLOCK) {
     throw std::runtime_error(folder +
-                             ": another program uses this session; wait for it, end it, or "
+                             ": another program writes this session; wait for it, end it, or "
                              "choose another session folder");
   }
   throw std::runtime_error(path + ": cannot lock: " + std::strerror(cause) +
@@ -40,13 +40,5 @@ SessionLock::SessionLock(const std::string& folder) {
 }
 
 SessionLock::~SessionLock() { ::close(descriptor_); }
-
-SessionReadLock::SessionReadLock(const std::string& folder)
-    : descriptor_(::open((folder + "/session.lock").c_str(), O_RDONLY | O_CLOEXEC)),
-      is_held_(descriptor_ < 0 ? errno == ENOENT : ::flock(descriptor_, LOCK_SH | LOCK_NB) == 0) {}
-
-SessionReadLock::~SessionReadLock() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
 
 }  // namespace plumb

@@ -21,20 +21,4 @@ class SessionLock {
   int descriptor_;
 };
 
-// Keeps writers out of a session while it lives, unless one is at work.
-class SessionReadLock {
- public:
-  explicit SessionReadLock(const std::string& folder);
-  ~SessionReadLock();
-  SessionReadLock(const SessionReadLock&) = delete;
-  SessionReadLock& operator=(const SessionReadLock&) = delete;
-
-  // Also if there is no lock file, as in a copied session: nobody has ever written there.
-  bool is_held() const { return is_held_; }
-
- private:
-  int descriptor_;
-  bool is_held_;
-};
-
 }  // namespace plumb

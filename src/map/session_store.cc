@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plumbline/map/session_store.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <filesystem>
 #include <stdexcept>
 
@@ -24,12 +27,14 @@ std::string ExistingDatabasePath(const std::string& folder) {
                            "`plumbline reconstruct` or to the launch file");
 }
 
-// A session that lies at rest is read without a trace, from a medium that cannot be written too.
-sqlite::Access ReadAccess(const std::string& folder, const SessionReadLock& lock) {
+// Where the folder can be written, SQLite's own locks make readers and a writer get along, and
+// leave nothing behind; where it cannot, the log of a session that lies at rest is not missed.
+sqlite::Access ReadAccess(const std::string& folder) {
+  if (::faccessat(AT_FDCWD, folder.c_str(), W_OK, AT_EACCESS) == 0) return sqlite::Access::kRead;
   std::error_code error;  // Of an absent log.
   const std::uintmax_t log_bytes = std::filesystem::file_size(DatabasePath(folder) + "-wal", error);
   const bool has_log = !error && log_bytes > 0;
-  return lock.is_held() && !has_log ? sqlite::Access::kReadFrozen : sqlite::Access::kRead;
+  return has_log ? sqlite::Access::kReadProtected : sqlite::Access::kReadFrozen;
 }
 
 // NORMAL: a commit waits for no disk; a killed process loses nothing, a power cut at
@@ -55,8 +60,7 @@ class SessionStore::Impl {
   explicit Impl(const std::string& folder)
       : folder_(folder),
         photos_(folder + "/photos"),
-        read_lock_(folder),
-        database_(ExistingDatabasePath(folder), ReadAccess(folder, *read_lock_)),
+        database_(ExistingDatabasePath(folder), ReadAccess(folder)),
         camera_(ReadSessionCamera(&database_)) {
     database_.Execute(kConnectionSettings);
   }
@@ -64,7 +68,6 @@ class SessionStore::Impl {
   std::string folder_;
   PhotoFolder photos_;
   std::optional<SessionLock> lock_;
-  std::optional<SessionReadLock> read_lock_;
   sqlite::Database database_;
   Camera camera_;
 };

@@ -113,13 +113,15 @@ std::optional<double> Statement::OptionalDouble(int column) const {
 
 Database::Database(const std::string& path, Access access) : path_(path) {
   sqlite3* handle = nullptr;
-  const int flags = access == Access::kWrite ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE
-                                             : SQLITE_OPEN_READONLY | SQLITE_OPEN_URI;
-  const std::string name = access == Access::kWrite ? path : Uri(path, access);
+  const bool is_uri = access == Access::kReadProtected || access == Access::kReadFrozen;
+  const std::string name = is_uri ? Uri(path, access) : path;
+  int flags = is_uri ? SQLITE_OPEN_READONLY | SQLITE_OPEN_URI : SQLITE_OPEN_READWRITE;
+  if (access == Access::kWrite) flags |= SQLITE_OPEN_CREATE;
   const int code = sqlite3_open_v2(name.c_str(), &handle, flags, nullptr);
   handle_.reset(handle);
   if (code != SQLITE_OK) Fail(code);
   sqlite3_busy_timeout(handle, kBusyTimeout_ms);
+  if (access == Access::kRead) Execute("PRAGMA query_only = ON");
 }
 
 void Database::Execute(const std::string& sql) {

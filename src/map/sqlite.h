@@ -20,10 +20,10 @@ struct Blob {
 };
 
 enum class Access {
-  kWrite,      // Makes the file if it is absent.
-  kRead,       // While others may write.
-  kReadFrozen  // Nobody writes, and there is no write-ahead log: nothing beside the file is
-               // touched.
+  kWrite,          // Makes the file if it is absent.
+  kRead,           // Beside others that may write, in a folder that can be written.
+  kReadProtected,  // The same in one that cannot: where there is a log, with its index.
+  kReadFrozen      // Nobody writes, and there is no log.
 };
 
 class Database;

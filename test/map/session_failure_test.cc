@@ -101,7 +101,7 @@ TEST_F(SessionFailure, ReadingAFolderWithoutASessionMakesNone) {
 TEST_F(SessionFailure, ASecondWriterIsRefusedWhileAReaderIsWelcome) {
   SessionStore store(folder_, MakeCamera());
   EXPECT_THAT(ErrorOf([&] { SessionStore second(folder_, MakeCamera()); }),
-              AllOf(HasSubstr(folder_), HasSubstr("another program uses")));
+              AllOf(HasSubstr(folder_), HasSubstr("another program writes")));
   EXPECT_EQ(SessionStore::OpenExisting(folder_).NextPhotoId(), PhotoId{0});
 }
 
@@ -171,18 +171,26 @@ TEST_F(SessionFailure, ASessionOnAReadOnlyMediumIsReadWithoutATrace) {
   EXPECT_EQ(status, kChildPassed);
 }
 
-TEST_F(SessionFailure, WhatAKilledWriterLeftInTheLogIsRead) {
+// Runs a writer that leaves what it wrote in the log, for it ends without closing the database.
+void RunKilledWriter(const std::string& folder) {
   ASSERT_EQ(InChild([&] {
-              SessionStore store(folder_, MakeCamera());
+              SessionStore store(folder, MakeCamera());
               store.SavePhoto({0}, "a.jpg", MakeBytes(100, 1));
               store.Apply(MakeDelta(1, 0, 5));
-              ::_exit(kChildPassed);  // The database is not closed.
+              ::_exit(kChildPassed);
               return kChildFailed;
             }),
             kChildPassed);
-  ASSERT_TRUE(std::filesystem::exists(folder_ + "/session.db-wal"));
-  EXPECT_EQ(SessionStore::OpenExisting(folder_).Snapshot().landmarks_set.size(), 5u);
+  ASSERT_GT(std::filesystem::file_size(folder + "/session.db-wal"), 0u);
+}
 
+TEST_F(SessionFailure, WhatAKilledWriterLeftInTheLogIsRead) {
+  RunKilledWriter(folder_);
+  EXPECT_EQ(SessionStore::OpenExisting(folder_).Snapshot().landmarks_set.size(), 5u);
+}
+
+TEST_F(SessionFailure, ALogThatCannotBeReadIsNotPassedOver) {
+  RunKilledWriter(folder_);
   std::filesystem::remove(folder_ + "/session.db-shm");
   MakeReadOnly(root_);
   const int status = InChild([&] {
@@ -194,10 +202,32 @@ TEST_F(SessionFailure, WhatAKilledWriterLeftInTheLogIsRead) {
   EXPECT_EQ(status, kChildPassed);
 }
 
+TEST_F(SessionFailure, AReaderChangesNothingAndKeepsNoWriterOut) {
+  { SessionStore store(folder_, MakeCamera()); }
+  const std::set<std::string> files = FilesOf(folder_);
+  {
+    SessionStore reader = SessionStore::OpenExisting(folder_);
+    EXPECT_THAT(ErrorOf([&] { reader.Apply(MakeDelta(1, 0, 5)); }), HasSubstr("session.db"));
+    SessionStore writer(folder_, MakeCamera());
+    writer.SavePhoto({0}, "a.jpg", MakeBytes(100, 1));
+    writer.Apply(MakeDelta(1, 0, 5));
+    EXPECT_EQ(reader.Snapshot().landmarks_set.size(), 5u);
+  }
+  EXPECT_EQ(FilesOf(folder_), files);
+}
+
 TEST_F(SessionFailure, AFolderWithSignsOfAUriIsRead) {
   const std::string folder = folder_ + "/50% #1?mode=rw";
   { SessionStore store(folder, MakeCamera()); }
   EXPECT_EQ(SessionStore::OpenExisting(folder).NextPhotoId(), PhotoId{0});
+  MakeReadOnly(root_);
+  const int status = InChild([&] {
+    if (::geteuid() == 0 && ::seteuid(65534) != 0) return kChildCannotTry;
+    const PhotoId next = SessionStore::OpenExisting(folder).NextPhotoId();
+    return next == PhotoId{0} ? kChildPassed : kChildFailed;
+  });
+  if (status == kChildCannotTry) GTEST_SKIP() << "cannot become an unprivileged user";
+  EXPECT_EQ(status, kChildPassed);
 }
 
 TEST_F(SessionFailure, AFullDiskIsNamedWithItsCureAndLosesNothingWritten) {

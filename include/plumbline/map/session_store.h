@@ -42,7 +42,7 @@ class SessionStore {
   SessionStore(const std::string& folder, const Camera& camera);
 
   // Opens a session only to read it, even while it is being written, or from a medium that cannot
-  // be written. One that lies at rest is left without a trace.
+  // be written.
   static SessionStore OpenExisting(const std::string& folder);
 
   SessionStore(SessionStore&&) noexcept;
