@@ -17,7 +17,8 @@ constexpr double kSmallestClearance_m = 0.4;
 // inside sees a surface from behind.
 std::string FaultAt(const Renderer& renderer, const Eigen::Vector3d& center_in_world) {
   for (int i = 0; i < 27; ++i) {
-    const Eigen::Vector3d direction(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    const Eigen::Vector3i steps(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    const Eigen::Vector3d direction = steps.cast<double>();
     if (direction.isZero()) continue;
     const std::optional<RayHit> hit = renderer.Cast(center_in_world, direction);
     if (!hit) continue;

@@ -52,8 +52,9 @@ double Photographer::SceneDistance(const PlannedPhoto& photo) const {
   const Rigid3 world_from_cam = photo.cam_from_world.Inverse();
   std::vector<double> depths;
   for (int i = 0; i < 9; ++i) {
-    const Eigen::Vector2d pixel((i % 3 + 0.5) / 3.0 * camera_.width_px(),
-                                (i / 3 + 0.5) / 3.0 * camera_.height_px());
+    const Eigen::Vector2i third(i % 3, i / 3);
+    const Eigen::Vector2d share = (third.cast<double>().array() + 0.5) / 3.0;
+    const Eigen::Vector2d pixel(share.x() * camera_.width_px(), share.y() * camera_.height_px());
     const std::optional<Eigen::Vector2d> xy = camera_.Unproject(pixel);
     if (!xy) continue;
     const Eigen::Vector3d direction = world_from_cam.rotation * xy->homogeneous();
