@@ -13,10 +13,10 @@ import os
 import sys
 import traceback
 
-from benchmark import reconstruction
+from benchmark import realism, reconstruction, scenarios
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-SECTIONS = {"reconstruction": reconstruction}
+SECTIONS = {"reconstruction": reconstruction, "realism": realism, "scenarios": scenarios}
 
 
 def built_program():
