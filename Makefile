@@ -36,7 +36,7 @@ test-sanitize: deps ## Run the core's tests under AddressSanitizer and Undefined
 	cmake --build $(SANITIZED) -j$(JOBS) --target tests
 	ctest --test-dir $(SANITIZED) --output-on-failure
 
-bench: build ## Measure accuracy and seconds a photo on the shared scenes, into build/bench
+bench: build ## Measure accuracy and seconds a photo on the shared and the simulated scenes, into build/bench
 	/usr/bin/python3 scripts/bench.py
 
 has-photos:
