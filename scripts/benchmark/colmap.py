@@ -111,8 +111,9 @@ def cache_key(scene):
     return digest.hexdigest()[:16]
 
 
-def run_colmap(scene, work, reuse):
-    """What it found and took; with "failed", the step that failed, in place of what it found."""
+def run_colmap(scene, work, reuse, limit_s=None):
+    """What it found and took; in place of what it found, "failed", the step that failed, or
+    "cut_off", the step that `limit_s` for all steps ended."""
     cache = os.path.join(work, "colmap-%s-%s.json" % (scene.name, cache_key(scene)))
     if reuse and os.path.exists(cache):
         with open(cache) as file:
@@ -123,10 +124,13 @@ def run_colmap(scene, work, reuse):
     result = {"scene": scene.name, "photos": scene.num_photos, "wall_s": 0.0, "cpu_s": 0.0,
               "steps_s": {}}
     for step, command in colmap_commands(scene, folder):
-        timing = run_timed(command, os.path.join(folder, "log"), HEADLESS)
+        left_s = None if limit_s is None else max(limit_s - result["wall_s"], 0.0)
+        timing = run_timed(command, os.path.join(folder, "log"), HEADLESS, left_s)
         result["wall_s"] += timing["wall_s"]
         result["cpu_s"] += timing["cpu_s"]
         result["steps_s"][step] = timing["wall_s"]
+        if timing["cut_off"]:
+            return dict(result, cut_off=step)
         if timing["exit_code"] != 0:
             return dict(result, failed="%s, see %s/log" % (step, folder))
     poses = largest_model(folder)

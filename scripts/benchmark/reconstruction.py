@@ -86,6 +86,15 @@ def add_arguments(parser):
     parser.add_argument("--no-colmap", action="store_true")
     parser.add_argument("--reuse-colmap", action="store_true",
                         help="take COLMAP's result of an earlier run on the same photos")
+    parser.add_argument("--colmap-limit", type=float, default=20.0, metavar="TIMES",
+                        help="end COLMAP after so many times Plumbline's wall time on the scene; "
+                        "0: never (default: %(default)s)")
+
+
+def colmap_limit_s(arguments, scene, runs):
+    """Plumbline's longest wall time on the scene, times --colmap-limit; None: no limit."""
+    ours_s = max((r["wall_s"] for r in runs if r["scene"] == scene.name), default=None)
+    return ours_s * arguments.colmap_limit if ours_s and arguments.colmap_limit > 0 else None
 
 
 def run(arguments):
@@ -101,7 +110,8 @@ def run(arguments):
             continue
         log("colmap on %s" % scene.name)
         try:
-            result = colmap.run_colmap(scene, arguments.output, arguments.reuse_colmap)
+            result = colmap.run_colmap(scene, arguments.output, arguments.reuse_colmap,
+                                       colmap_limit_s(arguments, scene, results["plumbline"]))
             results["colmap"].append(result)
             if "failed" in result:
                 results["failures"].append("colmap on %s: %s" % (scene.name, result["failed"]))
@@ -123,11 +133,6 @@ def run_orders(arguments, scene, results):
         if result["exit_code"] != 0:
             results["failures"].append("plumbline on %s, order %s: exit code %d"
                                        % (scene.name, order, result["exit_code"]))
-
-
-def error_cells(result):
-    errors = result.get("center_error_mm") or {}
-    return [number(errors.get(key)) for key in ("mean", "median", "max")]
 
 
 def print_results(results):
@@ -152,6 +157,14 @@ def print_results(results):
                                      if r["order"] == "name" and r["exit_code"] == 0})
 
 
+def colmap_outcome(result):
+    if "failed" in result:
+        return "failed"
+    if "cut_off" in result:
+        return "ended in %s" % result["cut_off"]
+    return "%d/%d" % (result["registered"], result["photos"])
+
+
 def print_colmap(results, plumbline_wall_s):
     if not results:
         print("\nCOLMAP: not installed or not asked for, nothing to compare with")
@@ -160,12 +173,12 @@ def print_colmap(results, plumbline_wall_s):
     for result in results:
         ours_s = plumbline_wall_s.get(result["scene"])
         is_comparable = ours_s is not None and "failed" not in result
-        rows.append([result["scene"],
-                     "failed" if "failed" in result else
-                     "%d/%d" % (result["registered"], result["photos"])] + error_cells(result) +
-                    [number(result["wall_s"], 1) + (" (reused)" if result.get("reused") else ""),
+        bound = "> " if "cut_off" in result else ""
+        rows.append([result["scene"], colmap_outcome(result)] + error_cells(result) +
+                    [bound + number(result["wall_s"], 1) +
+                     (" (reused)" if result.get("reused") else ""),
                      number(ours_s, 1),
-                     number(result["wall_s"] / ours_s if is_comparable else None, 1)])
+                     bound + number(result["wall_s"] / ours_s if is_comparable else None, 1)])
     print_table("COLMAP, same photos, %d features, %d cores, intrinsics fixed, exhaustive"
                 % (colmap.NUM_FEATURES, os.cpu_count()),
                 ["scene", "registered", "mean mm", "median mm", "max mm", "wall s",
