@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -13,7 +12,6 @@ namespace plumb::internal {
 namespace {
 
 constexpr unsigned kNoMask = ~0U;
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 RTCDevice NewDevice() {
   // One thread builds the tree, so that it is the same every time.
@@ -22,7 +20,7 @@ RTCDevice NewDevice() {
   return device;
 }
 
-void CopyRays(const RayPacket& packet, RTCRay16* rays) {
+void CopyRays(const RayPacket& packet, float max_along, RTCRay16* rays) {
   for (int i = 0; i < RayPacket::kSize; ++i) {
     rays->org_x[i] = packet.origin_x[i];
     rays->org_y[i] = packet.origin_y[i];
@@ -31,7 +29,7 @@ void CopyRays(const RayPacket& packet, RTCRay16* rays) {
     rays->dir_y[i] = packet.direction_y[i];
     rays->dir_z[i] = packet.direction_z[i];
     rays->tnear[i] = 0.0F;
-    rays->tfar[i] = kInfinity;
+    rays->tfar[i] = max_along;
     rays->time[i] = 0.0F;
     rays->mask[i] = kNoMask;
     rays->flags[i] = 0;
@@ -89,7 +87,7 @@ void RayScene::AddTriangles() {
 void RayScene::FirstHits(const RayPacket& packet,
                          std::array<int, RayPacket::kSize>* triangles) const {
   alignas(64) RTCRayHit16 rays;
-  CopyRays(packet, &rays.ray);
+  CopyRays(packet, kUnlimited, &rays.ray);
   for (int i = 0; i < RayPacket::kSize; ++i) {
     rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
@@ -102,9 +100,11 @@ void RayScene::FirstHits(const RayPacket& packet,
   }
 }
 
-void RayScene::AnyHits(const RayPacket& packet, std::array<bool, RayPacket::kSize>* hits) const {
+void RayScene::AnyHits(const RayPacket& packet,
+                       float max_along,
+                       std::array<bool, RayPacket::kSize>* hits) const {
   alignas(64) RTCRay16 rays;
-  CopyRays(packet, &rays);
+  CopyRays(packet, max_along, &rays);
   RTCIntersectContext context = CoherentContext();
   rtcOccluded16(packet.valid.data(), scene_.get(), &context, &rays);
   for (int i = 0; i < RayPacket::kSize; ++i) (*hits)[i] = rays.tfar[i] < 0.0F;
@@ -142,7 +142,7 @@ std::optional<TriangleHit> RayScene::FirstHit(const Eigen::Vector3d& origin,
     ray.ray.dir_y = static_cast<float>(unit.y());
     ray.ray.dir_z = static_cast<float>(unit.z());
     ray.ray.tnear = near;
-    ray.ray.tfar = kInfinity;
+    ray.ray.tfar = kUnlimited;
     ray.ray.mask = kNoMask;
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
@@ -153,7 +153,7 @@ std::optional<TriangleHit> RayScene::FirstHit(const Eigen::Vector3d& origin,
     const int triangle = static_cast<int>(ray.hit.primID);
     const double along = (skipped + PlaneDistance(triangle, start, unit)) / length;
     if (along >= min_along && along <= max_along) return TriangleHit{triangle, along};
-    near = std::nextafter(std::max(ray.ray.tfar, near), kInfinity);
+    near = std::nextafter(std::max(ray.ray.tfar, near), kUnlimited);
   }
   return std::nullopt;
 }

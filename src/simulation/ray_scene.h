@@ -6,12 +6,15 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <type_traits>
 #include <vector>
 
 namespace plumb::internal {
+
+constexpr float kUnlimited = std::numeric_limits<float>::infinity();
 
 using Triangle3 = std::array<Eigen::Vector3d, 3>;
 
@@ -38,8 +41,10 @@ class RayScene {
   // Writes the index of the first triangle that each ray meets, -1 for none.
   void FirstHits(const RayPacket& packet, std::array<int, RayPacket::kSize>* triangles) const;
 
-  // Writes whether each ray meets anything; false for rays left out.
-  void AnyHits(const RayPacket& packet, std::array<bool, RayPacket::kSize>* hits) const;
+  // Writes whether each ray meets anything before `max_along`; false for rays left out.
+  void AnyHits(const RayPacket& packet,
+               float max_along,
+               std::array<bool, RayPacket::kSize>* hits) const;
 
   // The first triangle met with `along` in [min_along, max_along].
   std::optional<TriangleHit> FirstHit(const Eigen::Vector3d& origin,

@@ -48,7 +48,7 @@ class Renderer::Impl {
         facets(world.facets),
         materials(world.materials),
         ambient_maps(
-            internal::BakeAmbientMaps(patches, scene, static_cast<int>(world.facets.size()), 0)) {
+            internal::BakeAmbientMaps(patches, scene, static_cast<int>(world.facets.size()))) {
     integrals.try_emplace("", nullptr);
     for (const PlatePicture& picture : world.pictures) {
       integrals.try_emplace(picture.name, &picture);

@@ -144,7 +144,7 @@ void ShadeGlass(const ShadeJob& job) {
                                       axes[6] * x + axes[7] * y + axes[8]);
     // Old panes are wavy.
     const NoiseSample wave = Noise(shader.trowel, u, v);
-    const F tilt = 0.0025F * shader.strength * wave.value;
+    const F tilt = 0.0008F * shader.strength * wave.value;
     const Direction mirrored{view.x + 2.0F * tilt, view.y + 2.0F * tilt, Abs(view.z)};
     const F up = mirrored.x * shader.up_in_axes[0] + mirrored.y * shader.up_in_axes[1] +
                  mirrored.z * shader.up_in_axes[2];

@@ -81,8 +81,8 @@ PLUMB_SIMD_INLINE Looks Masonry(const SurfaceShader& shader,
   const Rgb tinted{body.red * (1.0F + warm), body.green, body.blue * (1.0F - warm)};
   // Mortar is greyer than what it joins.
   const float grey = mortar * (shader.reflectance[0] + shader.reflectance[1]) * 0.5F;
-  const F joint_tone = broad.clean * Max(grey * (1.0F + 1.5F * sample.detail.tone), Splat(0.02F));
-  const Rgb joint{joint_tone, joint_tone, joint_tone * 0.92F};
+  const F joint_tone = broad.clean * grey * Max(1.0F + sample.detail.tone, Splat(0.2F));
+  const Rgb joint{joint_tone * 1.06F, joint_tone, joint_tone * 0.86F};
 
   const F chip = bevel_m * 0.5F * Min(8.0F * sample.detail.tone + 0.5F, Splat(0.7F));
   const F edge = Min(element.edge_u_m, element.edge_v_m);
@@ -104,7 +104,7 @@ struct Brick {
                                     const Broad& broad,
                                     const Sample& sample) {
     const Element element = ElementAt(shader, Bond::kRunning, sample.u, sample.v);
-    return Masonry(shader, broad, sample, element, 0.004F, 1.15F);
+    return Masonry(shader, broad, sample, element, 0.004F, 1.35F);
   }
 };
 

@@ -127,7 +127,7 @@ void TileTracer::CastShadows() {
       is_any_valid |= packet.valid[slot] != 0;
     }
     is_hidden.fill(true);
-    if (is_any_valid) job_.scene.AnyHits(packet, &is_hidden);
+    if (is_any_valid) job_.scene.AnyHits(packet, kUnlimited, &is_hidden);
     for (int slot = 0; slot < RayPacket::kSize; ++slot) {
       is_lit_[RayIndex(column, row, slot)] = packet.valid[slot] != 0 && !is_hidden[slot];
     }
@@ -168,7 +168,7 @@ float TileTracer::SunShare(int pixel) const {
       if (first + slot >= num_parts) packet.valid[slot] = 0;
     }
     std::array<bool, RayPacket::kSize> is_hidden;
-    job_.scene.AnyHits(packet, &is_hidden);
+    job_.scene.AnyHits(packet, kUnlimited, &is_hidden);
     for (int slot = 0; slot < RayPacket::kSize; ++slot) {
       num_lit += packet.valid[slot] != 0 && !is_hidden[slot] ? 1 : 0;
     }
@@ -213,7 +213,7 @@ void TileTracer::CastParts() {
       if (triangles[slot] >= 0) part.patch = job_.patches.patch_of_triangle[triangles[slot]];
       SetShadowRay(slot, part.patch, part.ray, &packet);
     }
-    job_.scene.AnyHits(packet, &is_hidden);
+    job_.scene.AnyHits(packet, kUnlimited, &is_hidden);
     for (int slot = 0; slot < count; ++slot) {
       parts_[first + slot].sun = packet.valid[slot] != 0 && !is_hidden[slot] ? 1.0F : 0.0F;
     }
