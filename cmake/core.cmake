@@ -106,7 +106,7 @@ if(benchmark_FOUND AND APRILTAG_FOUND AND TARGET opencv_aruco)
     add_executable(${name} EXCLUDE_FROM_ALL ${source})
     target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/src)
     target_compile_definitions(${name} PRIVATE PLUMBLINE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-    target_link_libraries(${name} PRIVATE plumb_evaluation benchmark::benchmark)
+    target_link_libraries(${name} PRIVATE plumb_evaluation plumb_simulation benchmark::benchmark)
   endforeach()
   # The marker detector is measured beside two others.
   target_link_libraries(marker_benchmark PRIVATE plumb_marker opencv_aruco PkgConfig::APRILTAG

@@ -14,8 +14,9 @@ namespace {
 
 constexpr double kGridStep_m = 0.12;
 constexpr int kMaxGridPoints = 400;  // Along a side.
+constexpr double kNarrow_m = 0.1;    // Across so little nothing changes.
 
-constexpr int kNumDirections = 48;
+constexpr int kNumDirections = 32;
 static_assert(kNumDirections % RayPacket::kSize == 0);
 constexpr float kReach_m = 2.5F;      // What stands farther off hides nothing.
 constexpr float kHiddenShare = 0.8F;  // What hides the sky is lit too.
@@ -44,6 +45,7 @@ float SeenShare(const RayScene& scene,
   int num_hidden = 0;
   for (int first = 0; first < kNumDirections; first += RayPacket::kSize) {
     RayPacket packet;
+    packet.is_coherent = false;
     packet.valid.fill(-1);
     packet.origin_x.fill(static_cast<float>(point.x()));
     packet.origin_y.fill(static_cast<float>(point.y()));
@@ -121,9 +123,16 @@ AmbientMap Bake(const PlaneFacet& facet,
   const double depth = patch.offset - patch.normal.dot(patch.texture_origin);
   const Eigen::Vector3d origin = patch.texture_origin + (depth + kOffset_m) * patch.normal;
   AmbientMap map = EmptyMap(facet.bounds);
+  const Eigen::Array<bool, 2, 1> is_narrow = facet.bounds.sizes().array() < kNarrow_m;
   for (int row = 0; row < map.rows(); ++row) {
     for (int column = 0; column < map.columns(); ++column) {
-      const Eigen::Vector2d uv = map.GridPoint(column, row).cast<double>();
+      const Eigen::Vector2i first(is_narrow.x() ? 0 : column, is_narrow.y() ? 0 : row);
+      if (first != Eigen::Vector2i(column, row)) {
+        map.Cell(column, row) = map.Cell(first.x(), first.y());
+        continue;
+      }
+      Eigen::Vector2d uv = map.GridPoint(column, row).cast<double>();
+      uv = is_narrow.select(facet.bounds.center(), uv);
       const Eigen::Vector3d point = origin + uv.x() * patch.u_axis + uv.y() * patch.v_axis;
       map.Cell(column, row) = {SeenShare(scene, point, directions), RunOff(scene, patch, point)};
     }

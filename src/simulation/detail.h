@@ -34,7 +34,7 @@ PLUMB_SIMD_INLINE F WeightOf(float wavelength_m, F pixel_m) {
 }
 
 // Dark pits: the lower tail of the noise goes deeper.
-PLUMB_SIMD_INLINE F WithPits(F noise) { return noise + 0.9F * Min(noise + 1.1F, Splat(0.0F)); }
+PLUMB_SIMD_INLINE F WithPits(F noise) { return noise + 1.6F * Min(noise + 1.3F, Splat(0.0F)); }
 
 PLUMB_SIMD_INLINE void AddOctave(const Octave& octave, F u, F v, F weight, Detail* detail) {
   const NoiseSample noise = Noise(octave, u, v);
@@ -54,22 +54,27 @@ SumOctaves(const SurfaceShader& shader, int first, int last, F u, F v, F pixel_m
   return detail;
 }
 
-// How lively the fine detail is here, 0.4 to 1.9.
-PLUMB_SIMD_INLINE F ContrastAt(const SurfaceShader& shader, F u, F v) {
-  return 0.4F + 1.5F * SmoothStep(-1.0F, 1.6F, Noise(shader.contrast, u, v).value);
+// How lively the fine detail is here, 0.4 to 2.
+PLUMB_SIMD_INLINE F ContrastAt(const SurfaceShader& shader, F u, F v, F blotch) {
+  const F level = Noise(shader.contrast, u, v).value + 0.3F * blotch;
+  return 0.4F + 1.6F * SmoothStep(-1.0F, 2.2F, level);
 }
 
 // The share of light that stains, run-off and splashes from the ground leave.
 PLUMB_SIMD_INLINE F Weathering(const SurfaceShader& shader, const Place& place, F contrast) {
+  const F strength = Min(Splat(shader.strength), Splat(1.3F));
   F clean = Splat(1.0F);
   const F stain = SmoothStep(0.4F, 2.0F, Noise(shader.stain, place.u, place.v).value);
-  clean -= 0.16F * shader.strength * stain;
+  clean -= 0.13F * strength * stain;
   if (AnyPositive(place.run_off)) {
-    const F streak = SmoothStep(-0.6F, 1.8F, Noise(shader.streak, place.u, place.v).value);
-    clean *= 1.0F - 0.5F * shader.strength * place.run_off * streak;
+    // Here more, there less, as the ledge is worn.
+    const F streak =
+        SmoothStep(-0.2F, 2.4F, Noise(shader.streak, place.u, place.v).value + contrast - 0.9F);
+    clean *= 1.0F - 0.34F * strength * place.run_off * streak;
   }
+  if (shader.is_level) return clean;
   const F splash = Clamp01(1.0F - place.height_m * (1.0F / 0.7F));
-  return clean * (1.0F - 0.25F * shader.strength * splash * splash * contrast);
+  return clean * (1.0F - 0.2F * strength * splash * splash * contrast);
 }
 
 // The share of light that hairline cracks leave: the zero lines of a noise, where another is high.

@@ -47,6 +47,19 @@ PLUMB_SIMD_INLINE Element ElementAt(const SurfaceShader& shader, Bond bond, F u,
 // Share of a footprint of `size_m` that lies on the near side of an edge `distance_m` ahead.
 PLUMB_SIMD_INLINE F Coverage(F distance_m, F size_m) { return Clamp01(distance_m / size_m + 0.5F); }
 
+// 1 where the elements are large for a sample, 0 where they are too small to be told apart.
+PLUMB_SIMD_INLINE F ResolvedShare(const SurfaceShader& shader, F size_m) {
+  const float smaller =
+      shader.element_m[0] < shader.element_m[1] ? shader.element_m[0] : shader.element_m[1];
+  return SmoothStep(2.0F, 5.0F, (smaller + shader.joint_m) / size_m);
+}
+
+// Share of the surface that is not joint.
+PLUMB_SIMD_INLINE float BodyShare(const SurfaceShader& shader) {
+  return shader.element_m[0] * shader.element_m[1] /
+         ((shader.element_m[0] + shader.joint_m) * (shader.element_m[1] + shader.joint_m));
+}
+
 // Change of the cosine with the sun where an element's border is bevelled.
 PLUMB_SIMD_INLINE F Bevel(const SurfaceShader& shader, const Element& element, float width_m) {
   const F near_u = Clamp01(1.0F - element.edge_u_m * (1.0F / width_m));

@@ -33,7 +33,9 @@ PLUMB_SIMD_INLINE Rgb Sky(const Direction& towards) {
                              Noise(1.3F * x, 0.8F * y, 11U).value +
                                  0.5F * Noise(3.1F * x, 2.3F * y, 12U).value +
                                  0.25F * Noise(7.3F * x, 5.9F * y, 13U).value);
-  return Mix(Mix(blue, pale, falloff * falloff), SplatRgb(2.1F, 2.1F, 2.1F), 0.7F * cloud);
+  return Mix(Mix(blue, pale, falloff * falloff),
+             SplatRgb(2.1F, 2.1F, 2.1F),
+             0.7F * cloud * SmoothStep(0.0F, 0.2F, height));
 }
 
 // A row of houses across the street, 40 m off, in coordinates along and above the ground.

@@ -16,6 +16,13 @@
 
 namespace plumb::internal {
 
+// A patch's plane as rays from the camera meet it: at center + depth / (normal . d) d along d.
+struct PlaneView {
+  Eigen::Vector3f normal;
+  float depth;
+  bool faces_sun;
+};
+
 // All that a photo of a world depends on. Holds references.
 struct PhotoJob {
   const RayScene& scene;
@@ -29,6 +36,7 @@ struct PhotoJob {
   const Camera& camera;
   Rigid3 cam_from_world;
   Illumination light;
+  std::vector<PlaneView> planes;  // Of each patch.
   int samples_per_axis;
 };
 

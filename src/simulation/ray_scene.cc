@@ -36,10 +36,11 @@ void CopyRays(const RayPacket& packet, float max_along, RTCRay16* rays) {
   }
 }
 
-RTCIntersectContext CoherentContext() {
+RTCIntersectContext ContextOf(const RayPacket& packet) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  context.flags = packet.is_coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                     : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   return context;
 }
 
@@ -92,7 +93,7 @@ void RayScene::FirstHits(const RayPacket& packet,
     rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
-  RTCIntersectContext context = CoherentContext();
+  RTCIntersectContext context = ContextOf(packet);
   rtcIntersect16(packet.valid.data(), scene_.get(), &context, &rays);
   for (int i = 0; i < RayPacket::kSize; ++i) {
     const bool is_hit = rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
@@ -105,7 +106,7 @@ void RayScene::AnyHits(const RayPacket& packet,
                        std::array<bool, RayPacket::kSize>* hits) const {
   alignas(64) RTCRay16 rays;
   CopyRays(packet, max_along, &rays);
-  RTCIntersectContext context = CoherentContext();
+  RTCIntersectContext context = ContextOf(packet);
   rtcOccluded16(packet.valid.data(), scene_.get(), &context, &rays);
   for (int i = 0; i < RayPacket::kSize; ++i) (*hits)[i] = rays.tfar[i] < 0.0F;
 }

@@ -18,9 +18,10 @@ constexpr float kUnlimited = std::numeric_limits<float>::infinity();
 
 using Triangle3 = std::array<Eigen::Vector3d, 3>;
 
-// Sixteen rays of one origin or one direction.
+// Sixteen rays.
 struct RayPacket {
   static constexpr int kSize = 16;
+  bool is_coherent = true;                   // They run side by side.
   alignas(64) std::array<int, kSize> valid;  // -1: trace; 0: leave out.
   alignas(64) std::array<float, kSize> origin_x, origin_y, origin_z;
   alignas(64) std::array<float, kSize> direction_x, direction_y, direction_z;

@@ -17,9 +17,12 @@
 namespace plumb {
 
 using internal::AmbientMap;
+using internal::Illumination;
+using internal::Patch;
 using internal::PatchWorld;
 using internal::PhotoJob;
 using internal::PictureIntegral;
+using internal::PlaneView;
 using internal::RayScene;
 using internal::TilePainter;
 
@@ -36,6 +39,20 @@ int StepThroughTiles(int num_tiles) {
   int step = static_cast<int>(0.618 * num_tiles) + 1;
   while (std::gcd(step, num_tiles) != 1) ++step;
   return step;
+}
+
+std::vector<PlaneView> ViewPlanes(const PatchWorld& world,
+                                  const Rigid3& cam_from_world,
+                                  const Illumination& light) {
+  const Eigen::Vector3d center = cam_from_world.TargetOriginInSource();
+  std::vector<PlaneView> planes;
+  planes.reserve(world.patches.size());
+  for (const Patch& patch : world.patches) {
+    planes.push_back({patch.normal.cast<float>(),
+                      static_cast<float>(patch.offset - patch.normal.dot(center)),
+                      patch.normal.dot(light.towards_sun) > 0.0});
+  }
+  return planes;
 }
 
 }  // namespace
@@ -80,6 +97,7 @@ cv::Mat Renderer::Render(const Camera& camera,
                          int num_threads) const {
   PLUMB_CHECK_GE(samples_per_axis, 1);
   PLUMB_CHECK(cam_from_world.Matrix().allFinite());
+  const Illumination illumination = internal::IlluminationOf(light);
   const PhotoJob job{impl_->scene,
                      impl_->patches,
                      impl_->facets,
@@ -90,7 +108,8 @@ cv::Mat Renderer::Render(const Camera& camera,
                      internal::ShadeKernelOf(DetectSimdLevel()),
                      camera,
                      cam_from_world,
-                     internal::IlluminationOf(light),
+                     illumination,
+                     ViewPlanes(impl_->patches, cam_from_world, illumination),
                      samples_per_axis};
   cv::Mat photo(camera.height_px(), camera.width_px(), CV_32FC3);
   const int num_tiles = TilePainter::NumTiles(camera);
@@ -111,8 +130,7 @@ std::optional<RayHit> Renderer::Cast(const Eigen::Vector3d& origin_in_world,
   const auto hit = impl_->scene.FirstHit(
       origin_in_world, direction_in_world, 0.0, std::numeric_limits<double>::infinity());
   if (!hit) return std::nullopt;
-  const internal::Patch& patch =
-      impl_->patches.patches[impl_->patches.patch_of_triangle[hit->triangle]];
+  const Patch& patch = impl_->patches.patches[impl_->patches.patch_of_triangle[hit->triangle]];
   RayHit result;
   result.point_in_world = origin_in_world + hit->along * direction_in_world;
   result.normal_in_world = patch.normal;

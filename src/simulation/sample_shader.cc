@@ -65,8 +65,9 @@ float PictureMean(const PictureIntegral& picture,
   const float height = scale * (std::abs(texture.v_by_column[i]) + std::abs(texture.v_by_row[i]));
   float sum = 0.0F;
   for (int k = 0; k < n * n; ++k) {
-    const float column = (static_cast<float>(k % n) - 0.5F * static_cast<float>(n - 1)) * scale;
-    const float row = (static_cast<float>(k / n) - 0.5F * static_cast<float>(n - 1)) * scale;
+    const float column = scale * OffsetOf(k % n, n);
+    const int row_index = k / n;
+    const float row = scale * OffsetOf(row_index, n);
     sum += picture.Mean(
         texture.u[i] / side_m + column * texture.u_by_column[i] + row * texture.u_by_row[i],
         texture.v[i] / side_m + column * texture.v_by_column[i] + row * texture.v_by_row[i],

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 
+#include "image/simd.h"
 #include "plumbline/simulation/material.h"
 
 namespace plumb::internal {
@@ -29,7 +30,8 @@ constexpr int kMaxOctaves = 16;
 struct SurfaceShader {
   Pattern pattern = Pattern::kPlaster;
   std::array<float, 3> reflectance{};
-  float strength = 0.0F;  // Of all irregularity: 1 for a detail of 0.12.
+  float strength = 0.0F;    // Of all irregularity: 1 for a detail of 0.12.
+  float per_detail = 0.0F;  // 1 / detail; 0 for none.
   std::array<float, 2> element_m{};
   float joint_m = 0.0F;
   float element_contrast = 0.0F;
@@ -40,6 +42,7 @@ struct SurfaceShader {
   Octave contrast, warp, stain, streak, crack, crack_where, trowel;
   float height_by_u = 0.0F, height_by_v = 0.0F;  // World z = height + those . (u, v).
   float height_m = 0.0F;
+  bool is_level = false;  // Ground, sills: nothing splashes against it.
 
   float sun_cosine = 0.0F;           // Of the sun's direction with the normal; below 0: dark.
   float sun_u = 0.0F, sun_v = 0.0F;  // The sun's direction along the texture's axes.
@@ -57,6 +60,12 @@ struct PatchView {
   std::array<float, 3> n{}, u{}, v{};
   float u0 = 0.0F, v0 = 0.0F;
 };
+
+// Of the places that a pixel's mean is taken over: of place `index` of `count` along an axis, from
+// the centre, in pitches.
+PLUMB_SIMD_INLINE float OffsetOf(int index, int count) {
+  return static_cast<float>(index) - 0.5F * static_cast<float>(count - 1);
+}
 
 // Rays (PixelRay) by component.
 struct RayList {

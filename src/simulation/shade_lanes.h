@@ -112,10 +112,9 @@ void ShadeSurface(const ShadeJob& job) {
 
     Rgb sum = SplatRgb(0.0F, 0.0F, 0.0F);
     for (int k = 0; k < n * n; ++k) {
-      const float column =
-          (static_cast<float>(k % n) - 0.5F * static_cast<float>(n - 1)) * job.sample_pitch_px;
-      const float row =
-          (static_cast<float>(k / n) - 0.5F * static_cast<float>(n - 1)) * job.sample_pitch_px;
+      const int row_index = k / n;
+      const float column = job.sample_pitch_px * OffsetOf(k % n, n);
+      const float row = job.sample_pitch_px * OffsetOf(row_index, n);
       Sample sample;
       sample.u = place.u + column * spread.u_by_column + row * spread.u_by_row;
       sample.v = place.v + column * spread.v_by_column + row * spread.v_by_row;

@@ -17,10 +17,14 @@ constexpr double kGroundReflectance = 0.22;
 // A detail of this deviation has stains, streaks and cracks at full strength.
 constexpr float kUsualDetail = 0.12F;
 
+// Deviation of an octave of reflectance against the next coarser one. 1 would be an amplitude
+// spectrum of 1/f; photos of walls fall a little faster (test/benchmark/renderer_benchmark.cc).
+constexpr float kTonePersistence = 0.87F;
+
 // Relief shows below this wavelength only: what is coarser is flat for the eye.
 constexpr float kCoarsestRelief_m = 0.06F;
 // Deviation of one octave's slope for the usual detail.
-constexpr float kReliefOfOctave = 0.055F;
+constexpr float kReliefOfOctave = 0.032F;
 constexpr float kSlopeDeviation = 2.9F;  // NoiseSample::slope.
 
 std::array<float, 3> ToArray(const Eigen::Vector3d& vector) {
@@ -29,15 +33,36 @@ std::array<float, 3> ToArray(const Eigen::Vector3d& vector) {
           static_cast<float>(vector.z())};
 }
 
-// What an octave's lattice is laid out by.
-struct OctaveFrame {
-  Eigen::Vector2d sun;  // The sun's direction along (u, v).
-  std::uint32_t seed;
+constexpr int kNumTurns = kMaxOctaves + 8;
 
-  // Lattice of the given wavelengths along axes turned by `angle_rad` from u and v.
-  Octave Make(int index, double along_u_m, double along_v_m, double angle_rad) const {
-    const double c = std::cos(angle_rad);
-    const double s = std::sin(angle_rad);
+std::array<Eigen::Vector2d, kNumTurns> GoldenTurns() {
+  std::array<Eigen::Vector2d, kNumTurns> turns;
+  for (int i = 0; i < kNumTurns; ++i) turns[i] = {std::cos(2.399963 * i), std::sin(2.399963 * i)};
+  return turns;
+}
+
+// What an octave's lattice is laid out by.
+class OctaveFrame {
+ public:
+  // `sun`: its direction along (u, v).
+  OctaveFrame(const Eigen::Vector2d& sun, std::uint32_t seed) : sun_(sun), seed_(seed) {}
+
+  // Lattice of the given wavelengths along axes turned by `index` golden angles from u and
+  // v, so that no two run alike.
+  Octave Make(int index, double along_u_m, double along_v_m) const {
+    static const std::array<Eigen::Vector2d, kNumTurns> kTurns = GoldenTurns();
+    return Turned(kTurns[index], index, along_u_m, along_v_m);
+  }
+
+  // The same along u and v.
+  Octave MakeStraight(int index, double along_u_m, double along_v_m) const {
+    return Turned({1.0, 0.0}, index, along_u_m, along_v_m);
+  }
+
+ private:
+  Octave Turned(const Eigen::Vector2d& turn, int index, double along_u_m, double along_v_m) const {
+    const double c = turn.x();
+    const double s = turn.y();
     Octave octave;
     octave.x_by_u = static_cast<float>(c / along_u_m);
     octave.x_by_v = static_cast<float>(s / along_u_m);
@@ -45,46 +70,52 @@ struct OctaveFrame {
     octave.y_by_v = static_cast<float>(c / along_v_m);
     const double shorter_m = std::min(along_u_m, along_v_m);
     octave.wavelength_m = static_cast<float>(shorter_m);
-    octave.sun_x = static_cast<float>(shorter_m * (c * sun.x() + s * sun.y()) / along_u_m);
-    octave.sun_y = static_cast<float>(shorter_m * (-s * sun.x() + c * sun.y()) / along_v_m);
-    octave.seed = seed + static_cast<std::uint32_t>(index) * 0x6C8E9CF5U;
+    octave.sun_x = static_cast<float>(shorter_m * (c * sun_.x() + s * sun_.y()) / along_u_m);
+    octave.sun_y = static_cast<float>(shorter_m * (-s * sun_.x() + c * sun_.y()) / along_v_m);
+    octave.seed = seed_ + static_cast<std::uint32_t>(index) * 0x6C8E9CF5U;
     return octave;
   }
+
+  Eigen::Vector2d sun_;
+  std::uint32_t seed_;
 };
 
-// Equal deviation in each octave: an amplitude spectrum of 1/f.
 void SetOctaves(const Material& material, const OctaveFrame& frame, SurfaceShader* shader) {
+  float amplitude = 1.0F;
+  float sum_of_squares = 0.0F;
   const double finest_m = std::max(1e-4F, material.finest_detail_m);
   for (double wavelength_m = material.coarsest_detail_m;
        wavelength_m >= 0.99 * finest_m && shader->num_octaves < kMaxOctaves;
        wavelength_m *= 0.5) {
     const int k = shader->num_octaves++;
-    // Turned by the golden angle, so that no two lattices run alike.
     Octave& octave = shader->octaves[k];
-    octave = frame.Make(k, wavelength_m, wavelength_m, 0.4 + 2.399963 * k);
+    octave = frame.Make(k + 1, wavelength_m, wavelength_m);
     octave.relief = wavelength_m > kCoarsestRelief_m
                         ? 0.0F
                         : kReliefOfOctave * shader->strength / kSlopeDeviation;
+    octave.tone = amplitude;
+    sum_of_squares += amplitude * amplitude;
+    amplitude *= kTonePersistence;
   }
-  const float share = 1.0F / std::sqrt(static_cast<float>(std::max(1, shader->num_octaves)));
-  for (Octave& octave : shader->octaves) octave.tone = share * material.detail;
+  const float scale = material.detail / std::sqrt(std::max(sum_of_squares, 1e-9F));
+  for (Octave& octave : shader->octaves) octave.tone *= scale;
 }
 
 // Lattices of the blemishes; the wavelengths are those of weathered walls.
 void SetBlemishes(const Material& material, const OctaveFrame& frame, SurfaceShader* shader) {
-  shader->contrast = frame.Make(20, 0.6, 0.6, 0.7);
-  shader->stain = frame.Make(21, 1.1, 1.6, 0.2);
-  shader->streak = frame.Make(22, 0.035, 1.1, 0.0);
-  shader->crack = frame.Make(23, 0.9, 0.9, 1.1);
-  shader->crack_where = frame.Make(24, 2.3, 2.3, 0.5);
-  shader->warp = frame.Make(25, 0.23, 0.23, 1.9);
-  shader->trowel = frame.Make(26, 0.025, 0.16, 0.6);
+  shader->contrast = frame.Make(kMaxOctaves + 1, 0.6, 0.6);
+  shader->stain = frame.Make(kMaxOctaves + 2, 1.1, 1.6);
+  shader->streak = frame.MakeStraight(kMaxOctaves + 3, 0.035, 1.1);
+  shader->crack = frame.Make(kMaxOctaves + 4, 0.9, 0.9);
+  shader->crack_where = frame.Make(kMaxOctaves + 5, 2.3, 2.3);
+  shader->warp = frame.Make(kMaxOctaves + 6, 0.23, 0.23);
+  shader->trowel = frame.Make(kMaxOctaves + 7, 0.025, 0.16);
   if (material.pattern == Pattern::kWood) {
     const bool is_along_u = material.element_m.x() > material.element_m.y();
-    shader->trowel =
-        is_along_u ? frame.Make(26, 0.25, 0.006, 0.0) : frame.Make(26, 0.006, 0.25, 0.0);
+    shader->trowel = is_along_u ? frame.MakeStraight(kMaxOctaves + 7, 0.25, 0.006)
+                                : frame.MakeStraight(kMaxOctaves + 7, 0.006, 0.25);
   }
-  if (material.pattern == Pattern::kGlass) shader->trowel = frame.Make(26, 0.35, 0.5, 0.3);
+  if (material.pattern == Pattern::kGlass) shader->trowel = frame.Make(kMaxOctaves + 7, 0.35, 0.5);
   shader->trowel.tone = 0.25F * material.detail;
   shader->trowel.relief = kReliefOfOctave * shader->strength / kSlopeDeviation;
 }
@@ -98,6 +129,7 @@ void SetLight(const Patch& patch, const Illumination& light, SurfaceShader* shad
   shader->sky = light.sky_irradiance;
   shader->height_by_u = static_cast<float>(patch.u_axis.z());
   shader->height_by_v = static_cast<float>(patch.v_axis.z());
+  shader->is_level = std::abs(patch.normal.z()) > 0.7;
   // On the plane, normal . point = offset; texture_origin need not lie on it.
   const Eigen::Vector3d foot =
       patch.texture_origin + (patch.offset - patch.normal.dot(patch.texture_origin)) * patch.normal;
@@ -166,6 +198,7 @@ SurfaceShader ShaderOf(const Patch& patch,
   shader.joint_m = material.joint_m;
   shader.element_contrast = material.element_contrast;
   shader.specular = material.specular;
+  shader.per_detail = material.detail > 0.0F ? 1.0F / material.detail : 0.0F;
   shader.seed = patch.texture_seed;
   SetLight(patch, light, &shader);
   const OctaveFrame frame{

@@ -31,7 +31,8 @@ struct Looks {
 };
 
 PLUMB_SIMD_INLINE Rgb Paint(const SurfaceShader& shader, const Broad& broad, F tone) {
-  const F value = broad.clean * Max(1.0F + tone, Splat(0.06F));
+  // Never black: what is darker by a half has half, not none.
+  const F value = broad.clean * (tone < 0.0F ? 1.0F / (1.0F - tone) : 1.0F + tone);
   return {value * shader.reflectance[0] * (1.0F + broad.tint),
           value * shader.reflectance[1],
           value * shader.reflectance[2] * (1.0F - broad.tint)};
@@ -39,10 +40,10 @@ PLUMB_SIMD_INLINE Rgb Paint(const SurfaceShader& shader, const Broad& broad, F t
 
 PLUMB_SIMD_INLINE Broad BroadOf(const SurfaceShader& shader, const Place& place, int num_coarse) {
   Broad broad;
-  broad.contrast = ContrastAt(shader, place.u, place.v);
+  broad.blotch = Noise(shader.warp, place.u, place.v).value;
+  broad.contrast = ContrastAt(shader, place.u, place.v, broad.blotch);
   broad.detail = SumOctaves(shader, 0, num_coarse, place.u, place.v, place.pixel_m);
   broad.clean = Weathering(shader, place, broad.contrast);
-  broad.blotch = Noise(shader.warp, place.u, place.v).value;
   broad.tint = 0.02F * shader.strength * broad.blotch;
   return broad;
 }
@@ -53,7 +54,7 @@ struct Plaster {
                                          int num_coarse) {
     Broad broad = BroadOf(shader, place, num_coarse);
     // The strokes of the trowel bend with the noise that warps them.
-    const F bend = 0.08F * broad.blotch;
+    const F bend = 0.1F * Noise(shader.stain, place.u, place.v).value;
     const NoiseSample stroke = Noise(shader.trowel, place.u + bend, place.v - bend);
     const F weight = WeightOf(shader.trowel.wavelength_m, place.pixel_m);
     broad.detail.relief += weight * shader.trowel.relief * stroke.slope;
@@ -75,8 +76,9 @@ PLUMB_SIMD_INLINE Looks Masonry(const SurfaceShader& shader,
                                 const Element& element,
                                 float bevel_m,
                                 float mortar) {
-  const F own = 1.7F * shader.element_contrast * LowUnit(element.hash);
-  const F warm = 0.35F * shader.element_contrast * HighUnit(element.hash);
+  const F resolved = ResolvedShare(shader, sample.size_m);
+  const F own = 1.4F * shader.element_contrast * resolved * LowUnit(element.hash);
+  const F warm = 0.35F * shader.element_contrast * resolved * HighUnit(element.hash);
   const Rgb body = Paint(shader, broad, sample.detail.tone + own);
   const Rgb tinted{body.red * (1.0F + warm), body.green, body.blue * (1.0F - warm)};
   // Mortar is greyer than what it joins.
@@ -84,10 +86,10 @@ PLUMB_SIMD_INLINE Looks Masonry(const SurfaceShader& shader,
   const F joint_tone = broad.clean * grey * Max(1.0F + sample.detail.tone, Splat(0.2F));
   const Rgb joint{joint_tone * 1.06F, joint_tone, joint_tone * 0.86F};
 
-  const F chip = bevel_m * 0.5F * Min(8.0F * sample.detail.tone + 0.5F, Splat(0.7F));
+  const F chip = bevel_m * 0.5F * Min(shader.per_detail * sample.detail.tone + 0.5F, Splat(0.7F));
   const F edge = Min(element.edge_u_m, element.edge_v_m);
-  const F cover = Coverage(edge + chip, sample.size_m);
-  const F bevel_share = Min(bevel_m / sample.size_m, Splat(1.0F));
+  const F cover = Mix(Splat(BodyShare(shader)), Coverage(edge + chip, sample.size_m), resolved);
+  const F bevel_share = resolved * Min(bevel_m / sample.size_m, Splat(1.0F));
   const F bevel = 0.6F * bevel_share * Bevel(shader, element, bevel_m);
   // The joint lies deeper: the stone above shades it.
   const F depth = 0.25F * (1.0F - cover) * (element.dv > 0.0F ? Splat(0.4F) : Splat(1.0F));
@@ -104,7 +106,7 @@ struct Brick {
                                     const Broad& broad,
                                     const Sample& sample) {
     const Element element = ElementAt(shader, Bond::kRunning, sample.u, sample.v);
-    return Masonry(shader, broad, sample, element, 0.004F, 1.35F);
+    return Masonry(shader, broad, sample, element, 0.004F, 1.1F);
   }
 };
 
@@ -124,19 +126,17 @@ struct Ashlar {
   }
 };
 
+// Asphalt, gravel, grass: rough, without elements.
 struct Ground {
   static PLUMB_SIMD_INLINE Broad BroadAt(const SurfaceShader& shader,
                                          const Place& place,
                                          int num_coarse) {
-    Broad broad = BroadOf(shader, place, num_coarse);
-    broad.clean *= Cracks(shader, place, broad.detail.tone);
-    return broad;
+    return BroadOf(shader, place, num_coarse);
   }
   static PLUMB_SIMD_INLINE Looks At(const SurfaceShader& shader,
                                     const Broad& broad,
                                     const Sample& sample) {
-    const Element element = ElementAt(shader, Bond::kRandom, sample.u, sample.v);
-    return Masonry(shader, broad, sample, element, 0.006F, 0.5F);
+    return {Paint(shader, broad, sample.detail.tone), 2.0F * sample.detail.relief};
   }
 };
 
@@ -157,9 +157,12 @@ struct Wood {
     const F own = shader.element_contrast * HighUnit(board.hash);
     const F tone = sample.detail.tone + own + weight * shader.trowel.tone * grain.value;
     const Rgb paint = Paint(shader, broad, tone);
-    const Rgb bare = SplatRgb(0.30F, 0.24F, 0.18F) * Max(1.0F + 3.0F * tone, Splat(0.1F));
-    const F peeled = SmoothStep(1.5F, 1.75F, broad.blotch + 5.0F * sample.detail.tone);
-    const F gap = Coverage(Min(board.edge_u_m, board.edge_v_m), sample.size_m);
+    const Rgb bare = SplatRgb(0.30F, 0.24F, 0.18F) * Max(1.0F + tone, Splat(0.1F));
+    const F scatter = 0.8F * shader.per_detail * sample.detail.tone;
+    const F peeled = SmoothStep(2.1F, 2.4F, broad.blotch - scatter);
+    const F gap = shader.joint_m > 0.0F
+                      ? Coverage(Min(board.edge_u_m, board.edge_v_m), sample.size_m)
+                      : Splat(1.0F);
     const Rgb wood = Mix(paint, bare, Min(peeled * shader.strength, Splat(1.0F)));
     return {wood * Mix(Splat(0.3F), Splat(1.0F), gap),
             sample.detail.relief + weight * shader.trowel.relief * grain.slope +
@@ -182,7 +185,8 @@ struct Metal {
                                     const Sample& sample) {
     const Rgb paint = Paint(shader, broad, 0.5F * sample.detail.tone);
     const Rgb rust = SplatRgb(0.22F, 0.10F, 0.05F) * (1.0F + 2.0F * sample.detail.tone);
-    const F rusty = SmoothStep(1.9F, 2.3F, broad.blotch + 6.0F * sample.detail.tone);
+    const F scatter = 0.8F * shader.per_detail * sample.detail.tone;
+    const F rusty = SmoothStep(2.4F, 2.8F, broad.blotch + scatter);
     return {Mix(paint, rust, Min(rusty * shader.strength, Splat(1.0F))),
             0.4F * sample.detail.relief};
   }
@@ -198,18 +202,22 @@ struct RoofTiles {
                                     const Broad& broad,
                                     const Sample& sample) {
     const Element tile = ElementAt(shader, Bond::kStacked, sample.u, sample.v);
-    const F own = 1.7F * shader.element_contrast * LowUnit(tile.hash);
+    const F resolved = ResolvedShare(shader, sample.size_m);
+    const F own = 1.7F * shader.element_contrast * resolved * LowUnit(tile.hash);
     const Rgb clay = Paint(shader, broad, sample.detail.tone + own);
     const Rgb lichen = SplatRgb(0.45F, 0.44F, 0.30F) * (1.0F + sample.detail.tone);
-    const F grown = SmoothStep(1.3F, 1.7F, broad.blotch + 4.0F * sample.detail.tone);
+    const F scatter = 0.8F * shader.per_detail * sample.detail.tone;
+    const F grown = SmoothStep(2.2F, 2.6F, broad.blotch + scatter);
     // Each tile is an arch, and casts a shadow below its lower edge.
     const F arch = tile.du * (2.0F / shader.element_m[0]);
     const F shade =
         SmoothStep(0.0F, 0.02F, tile.edge_v_m + (tile.dv > 0.0F ? Splat(0.0F) : Splat(0.02F)));
     const F gap = Coverage(Min(tile.edge_u_m, tile.edge_v_m), sample.size_m);
-    const F light = Mix(Splat(0.25F), Splat(1.0F), shade) * Mix(Splat(0.3F), Splat(1.0F), gap);
-    return {Mix(clay, lichen, 0.8F * grown * Min(Splat(shader.strength), Splat(1.0F))) * light,
-            sample.detail.relief + 0.5F * arch * shader.sun_u};
+    const F light = Mix(Splat(0.9F),
+                        Mix(Splat(0.25F), Splat(1.0F), shade) * Mix(Splat(0.3F), Splat(1.0F), gap),
+                        resolved);
+    return {Mix(clay, lichen, 0.6F * grown * Min(Splat(shader.strength), Splat(1.0F))) * light,
+            sample.detail.relief + 0.5F * resolved * arch * shader.sun_u};
   }
 };
 

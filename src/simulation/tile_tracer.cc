@@ -44,14 +44,7 @@ TileTracer::TileTracer(const PhotoJob& job)
     : job_(job),
       center_(job.cam_from_world.TargetOriginInSource().cast<float>()),
       world_from_cam_(job.cam_from_world.rotation.conjugate().toRotationMatrix().cast<float>()),
-      towards_sun_(job.light.towards_sun.cast<float>()) {
-  const Eigen::Vector3d center = job.cam_from_world.TargetOriginInSource();
-  for (const Patch& patch : job.patches.patches) {
-    planes_.push_back({patch.normal.cast<float>(),
-                       static_cast<float>(patch.offset - patch.normal.dot(center)),
-                       patch.normal.dot(job.light.towards_sun) > 0.0});
-  }
-}
+      towards_sun_(job.light.towards_sun.cast<float>()) {}
 
 void TileTracer::Trace(int left, int top, int width, int height) {
   width_ = width;
@@ -84,8 +77,8 @@ void TileTracer::SetRay(int slot, const PixelRay& ray, RayPacket* packet) const 
 void TileTracer::SetShadowRay(int slot, int patch, const PixelRay& ray, RayPacket* packet) const {
   packet->valid[slot] = 0;
   Eigen::Vector3f point = Eigen::Vector3f::Zero();
-  if (patch != kSkyPatch && planes_[patch].faces_sun) {
-    const Plane& plane = planes_[patch];
+  if (patch != kSkyPatch && job_.planes[patch].faces_sun) {
+    const PlaneView& plane = job_.planes[patch];
     const Eigen::Vector3f direction = DirectionOf(ray);
     point = center_ + plane.depth / plane.normal.dot(direction) * direction +
             kShadowOffset_m * plane.normal;
@@ -146,10 +139,15 @@ bool TileTracer::IsShadowEdge(int pixel) const {
   });
 }
 
+// The parts' places lie on a turned grid, no two in one column or row: an upright edge that
+// wanders through a pixel then meets them one by one.
 PixelRay TileTracer::PartOf(int pixel, int part) const {
   const int n = job_.samples_per_axis;
-  const float column = (static_cast<float>(part % n) + 0.5F) / static_cast<float>(n) - 0.5F;
-  const float row = (static_cast<float>(part / n) + 0.5F) / static_cast<float>(n) - 0.5F;
+  const int i = part % n;
+  const int j = part / n;
+  const auto num_parts = static_cast<float>(n * n);
+  const float column = (static_cast<float>(i * n + j) + 0.5F) / num_parts - 0.5F;
+  const float row = (static_cast<float>(j * n + n - 1 - i) + 0.5F) / num_parts - 0.5F;
   PixelRay ray = rays_[pixel];
   ray.x += column * ray.x_by_column + row * ray.x_by_row;
   ray.y += column * ray.y_by_column + row * ray.y_by_row;

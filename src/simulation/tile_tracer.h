@@ -33,13 +33,6 @@ class TileTracer {
   const std::vector<Sample>& parts_of_pixels() const { return parts_; }
 
  private:
-  // Seen from the camera: the point along a direction d is center + depth / (normal . d) d.
-  struct Plane {
-    Eigen::Vector3f normal;
-    float depth;
-    bool faces_sun;
-  };
-
   void CastPixels();
   void CastShadows();
   void Collect();
@@ -57,7 +50,6 @@ class TileTracer {
   const Eigen::Vector3f center_;
   const Eigen::Matrix3f world_from_cam_;
   const Eigen::Vector3f towards_sun_;
-  std::vector<Plane> planes_;  // Of each patch.
 
   int width_ = 0, height_ = 0;
   std::array<PixelRay, kTileRays> rays_;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <stdexcept>
@@ -168,6 +169,68 @@ TEST(Renderer, IsTheSameWithAnyNumberOfThreads) {
     const cv::Mat other = renderer.Render(camera, cam_from_world, {}, 2, num_threads);
     EXPECT_EQ(cv::norm(one, other, cv::NORM_INF), 0.0) << num_threads;
   }
+}
+
+// Mean green of a few pixels around a world point.
+float RadianceAt(const cv::Mat& photo,
+                 const Camera& camera,
+                 const Rigid3& cam_from_world,
+                 const Vector3d& point_in_world) {
+  const Vector2d pixel = *camera.Project(cam_from_world * point_in_world);
+  const cv::Rect window(static_cast<int>(pixel.x()) - 2, static_cast<int>(pixel.y()) - 2, 5, 5);
+  return static_cast<float>(cv::mean(photo(window))[1]);
+}
+
+TEST(Renderer, ShadowFallsWhereTheSunIsHidden) {
+  WorldBuilder builder;
+  Material plain;
+  plain.detail = 0.0F;
+  const std::uint32_t material = builder.AddMaterial(plain);
+  builder.AddRectangle(material, {-5, 0, -5}, {10, 0, 0}, {0, 0, 10});
+  builder.AddBox(material, {-0.5, -1.0, 1.0}, {0.5, 0.0, 1.2});
+  const Renderer renderer(builder.world());
+  Light light;
+  light.towards_sun_in_world = {0.0, -1.0, 1.0};
+  const Camera camera = MakePaperCamera(0.1);
+  const Rigid3 cam_from_world = LookAtWall({0.0, -6.0, 0.0});
+  const cv::Mat photo = renderer.Render(camera, cam_from_world, light);
+  // The box stands out 1 m: at 45 degrees its shadow reaches 1 m down, to z = 0.
+  const float shade = RadianceAt(photo, camera, cam_from_world, {0.0, 0.0, 0.06});
+  const float lit = RadianceAt(photo, camera, cam_from_world, {0.0, 0.0, -0.2});
+  const float beside = RadianceAt(photo, camera, cam_from_world, {1.2, 0.0, 0.5});
+  EXPECT_LT(shade, 0.6F * lit);
+  EXPECT_NEAR(beside / lit, 1.0, 0.15);
+  light.sun_irradiance = 0.0;
+  const cv::Mat overcast = renderer.Render(camera, cam_from_world, light);
+  EXPECT_LT(RadianceAt(overcast, camera, cam_from_world, {0.0, 0.0, -0.2}), 0.6F * lit);
+}
+
+TEST(Renderer, CopiesShowTheSameTextureAndOthersDoNot) {
+  const Camera camera = MakePaperCamera(0.1);
+  const auto difference_of = [&](int copy_of) {
+    WorldBuilder builder;
+    const std::uint32_t material = builder.AddMaterial({});
+    for (const double x : {0.0, 8.0}) {
+      builder.AddRectangle(material, {x, 0, 0}, {7, 0, 0}, {0, 0, 5}).copy_of = copy_of;
+    }
+    const Renderer renderer(builder.world());
+    const cv::Mat first = renderer.Render(camera, LookAtWall({3.5, -4.0, 2.5}), {});
+    const cv::Mat second = renderer.Render(camera, LookAtWall({11.5, -4.0, 2.5}), {});
+    return cv::norm(first, second, cv::NORM_L1) / static_cast<double>(first.total());
+  };
+  EXPECT_LT(difference_of(3), 2e-3);
+  EXPECT_GT(difference_of(-1), 3e-2);
+}
+
+TEST(Renderer, RefusesBrokenLight) {
+  const Renderer renderer(MakeBlobWall());
+  const Camera camera = MakePaperCamera(0.1);
+  Light light;
+  light.towards_sun_in_world.setZero();
+  EXPECT_THROW(renderer.Render(camera, LookAtWall({0, -4, 0}), light), std::invalid_argument);
+  light = Light();
+  light.sun_irradiance = -1.0;
+  EXPECT_THROW(renderer.Render(camera, LookAtWall({0, -4, 0}), light), std::invalid_argument);
 }
 
 TEST(Renderer, RefusesBrokenWorlds) {
