@@ -23,6 +23,7 @@ using Cells = Eigen::Array<double, kNumCodeBits, 1>;
 constexpr double kWhiteRadius = 1.12;
 constexpr double kRingRadius = 0.9;
 constexpr double kInnerBlackRadius = 0.31;
+constexpr double kInDiscRadius = 0.1;  // Outside the hair cross.
 constexpr std::array<double, 4> kStripeRadii = {0.5, 0.57, 0.64, 0.71};
 
 // Share of the directions that must show the outer circle; blur and a hidden part cost some.
@@ -64,7 +65,7 @@ bool ShowsCircles(const MarkerDetectorOptions& options,
   if (contrast < 0.5 * options.min_contrast) return false;  // Blur takes up to half of it.
   const auto num_rises = ((white - black) > kMinCircleRise * contrast).count();
   if (static_cast<double>(num_rises) < kMinCircleShare * kNumAngles) return false;
-  const double disc = gray.At(Apply(pixel_from_circle, Eigen::Vector2d::Zero()));
+  const double disc = Unroll(gray, pixel_from_circle, kInDiscRadius).mean();
   const double around_disc = Unroll(gray, pixel_from_circle, kInnerBlackRadius).mean();
   return disc - around_disc > kMinDiscRise * contrast;
 }

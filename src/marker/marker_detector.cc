@@ -26,7 +26,10 @@ namespace {
 
 // How far out the face is laid over the photo: into the quiet zone, short of its edge.
 constexpr double kFitRadius = 1.15;
-constexpr double kMaxFitSamples = 3000.0;
+constexpr double kMaxExaminedPixels = 20000.0;
+constexpr std::size_t kMaxFitSamples = 4000;
+constexpr double kEdgeReachPx = 2.5;
+constexpr int kSparseStep = 3;
 // A lens without a calibration is taken to have a focal length of half the photo's width or more.
 constexpr double kMinFocalPerWidth = 0.5;
 constexpr double kMinEdgeShare = 0.15;  // Of the contrast that an edge rises by within a pixel.
@@ -57,6 +60,14 @@ Eigen::Matrix3d HomographyOfCircles(const Ellipse& outer, const std::optional<El
   return homography;
 }
 
+// Evenly.
+std::vector<FaceSample> Thinned(const std::vector<FaceSample>& samples) {
+  const std::size_t step = samples.size() / kMaxFitSamples + 1;
+  std::vector<FaceSample> thinned;
+  for (std::size_t i = 0; i < samples.size(); i += step) thinned.push_back(samples[i]);
+  return thinned;
+}
+
 class Detector {
  public:
   Detector(const MarkerDetectorOptions& options, const cv::Mat& gray, const Camera* camera)
@@ -77,7 +88,7 @@ class Detector {
   std::optional<Laid> LayFace(const Eigen::Matrix3d& pixel_from_marker,
                               MarkerDetection* detection) const;
   std::vector<FaceSample> Samples(const Eigen::Matrix3d& pixel_from_marker,
-                                  const Ellipse& ellipse,
+                                  const MarkerDetection& detection,
                                   const LocalLens& lens) const;
 
   MarkerDetectorOptions options_;
@@ -132,20 +143,35 @@ std::optional<MarkerDetection> Detector::Examine(const Ellipse& outer) const {
   return detection;
 }
 
-// Grey values of the face, at flat pixels relative to the lens's origin.
+// Whether the face changes within reach of a pixel.
+bool IsNearEdge(std::uint32_t word,
+                const Eigen::Matrix3d& marker_from_pixel,
+                const Eigen::Vector2d& pixel) {
+  const auto is_white_at = [&](double x, double y) {
+    const Eigen::Vector2d beside = pixel + kEdgeReachPx * Eigen::Vector2d(x, y);
+    return IsWhite(word, (marker_from_pixel * beside.homogeneous()).hnormalized());
+  };
+  const bool is_white = is_white_at(-1.0, 0.0);
+  return is_white != is_white_at(1.0, 0.0) || is_white != is_white_at(0.0, -1.0) ||
+         is_white != is_white_at(0.0, 1.0);
+}
+
+// Grey values of the face, at flat pixels relative to the lens's origin: those about its edges, and
+// some of the others, for they tell black and white.
 std::vector<FaceSample> Detector::Samples(const Eigen::Matrix3d& pixel_from_marker,
-                                          const Ellipse& ellipse,
+                                          const MarkerDetection& detection,
                                           const LocalLens& lens) const {
   const Eigen::Matrix3d marker_from_pixel = pixel_from_marker.inverse();
+  const std::uint32_t word = MarkerCodebook::Get().Word(detection.id);
+  const Ellipse& ellipse = detection.ellipse;
   const double reach_px = 1.3 * kFitRadius * ellipse.semi_major_px;
   const cv::Mat& gray = gray_.gray();
   const int x_begin = std::max(0, static_cast<int>(ellipse.center_px.x() - reach_px));
   const int y_begin = std::max(0, static_cast<int>(ellipse.center_px.y() - reach_px));
   const int x_end = std::min(gray.cols, static_cast<int>(ellipse.center_px.x() + reach_px) + 2);
   const int y_end = std::min(gray.rows, static_cast<int>(ellipse.center_px.y() + reach_px) + 2);
-  const double area_px2 =
-      M_PI * kFitRadius * kFitRadius * ellipse.semi_major_px * ellipse.semi_minor_px;
-  const int stride = std::max(1, static_cast<int>(std::ceil(std::sqrt(area_px2 / kMaxFitSamples))));
+  const double area_px2 = M_PI * ellipse.semi_major_px * ellipse.semi_minor_px;
+  const int stride = std::max(1, static_cast<int>(std::sqrt(area_px2 / kMaxExaminedPixels)));
   std::vector<FaceSample> samples;
   for (int y = y_begin; y < y_end; y += stride) {
     const std::uint8_t* row = gray.ptr<std::uint8_t>(y);
@@ -153,12 +179,14 @@ std::vector<FaceSample> Detector::Samples(const Eigen::Matrix3d& pixel_from_mark
       const Eigen::Vector2d pixel(x, y);
       const double radius = (marker_from_pixel * pixel.homogeneous()).hnormalized().norm();
       if (radius > kFitRadius || radius < kCrossRadius) continue;
+      const bool is_sparse = x % kSparseStep == 0 && y % kSparseStep == 0;
+      if (!is_sparse && !IsNearEdge(word, marker_from_pixel, pixel)) continue;
       const std::optional<Eigen::Vector2d> flat_px = lens.FlatFromRaw(pixel);
       if (!flat_px) continue;
       samples.push_back({*flat_px - lens.flat_origin_px(), static_cast<double>(row[x])});
     }
   }
-  return samples;
+  return Thinned(samples);
 }
 
 // Lays the face over the photo from a start in raw pixels. Gives the homography to raw pixels,
@@ -173,7 +201,7 @@ std::optional<Detector::Laid> Detector::LayFace(const Eigen::Matrix3d& pixel_fro
   flat_from_pixel.topRightCorner<2, 1>() = -lens->flat_by_raw() * origin_px;
   const double focal_px =
       camera_ != nullptr ? camera_->MeanFocalLength() : kMinFocalPerWidth * gray_.gray().cols;
-  const std::optional<FaceFit> fit = FitFace(Samples(pixel_from_marker, detection->ellipse, *lens),
+  const std::optional<FaceFit> fit = FitFace(Samples(pixel_from_marker, *detection, *lens),
                                              MarkerCodebook::Get().Word(detection->id),
                                              flat_from_pixel * pixel_from_marker,
                                              detection->ellipse.semi_major_px / focal_px);

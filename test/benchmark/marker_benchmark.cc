@@ -1,21 +1,24 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Measures the marker detector on rendered scenes with known truth, beside ArUco and apriltag, and
-// prints one line of JSON per scene. Usage: marker_benchmark [markers per scene].
+// Measures the marker detector, and prints JSON, a line per result:
+//   marker_benchmark scenes N    N markers a rendered scene with known truth, beside ArUco,
+//   apriltag marker_benchmark mixed N     N markers of any size, tilt, blur, noise, contrast: wrong
+//   IDs marker_benchmark photos DIR  photos without markers, as they are and enlarged to 16
+//   megapixels
 #include <apriltag/apriltag.h>
-#include <apriltag/tag16h5.h>
 #include <apriltag/tag36h11.h>
 
 #include <cstdlib>
 #include <ctime>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <opencv2/aruco.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
 
+#include "plumbline/common/stopwatch.h"
 #include "plumbline/marker/marker_detector.h"
 #include "test/support/marker_scene.h"
 #include "test/support/random.h"
@@ -166,6 +169,7 @@ class Apriltag : public Kind {
 struct Scene {
   std::string name;
   double diameter_px = 30.0;
+  double min_diameter_px = 0.0;  // If not 0, diameters are drawn from here to diameter_px.
   double min_tilt_deg = 0.0;
   double max_tilt_deg = 0.0;
   PhotoConditions conditions;
@@ -202,12 +206,11 @@ void MeasurePhoto(
     const int id = random.Index(kind.NumIds());
     const double tilt_rad =
         random.Uniform(scene.min_tilt_deg, scene.max_tilt_deg + 1e-9) * M_PI / 180.0;
-    const Rigid3 placed = PlaceMarker(camera,
-                                      pixel,
-                                      scene.diameter_px,
-                                      tilt_rad,
-                                      random.Uniform(0.0, 6.28),
-                                      random.Uniform(0.0, 6.28));
+    const double diameter_px = scene.min_diameter_px > 0.0
+                                   ? random.Uniform(scene.min_diameter_px, scene.diameter_px)
+                                   : scene.diameter_px;
+    const Rigid3 placed = PlaceMarker(
+        camera, pixel, diameter_px, tilt_rad, random.Uniform(0.0, 6.28), random.Uniform(0.0, 6.28));
     faces.push_back({kind.FaceOf(id), placed, kind.HalfSide()});
     truth.push_back({id, pixel});
   }
@@ -284,18 +287,11 @@ std::vector<Scene> Scenes() {
   return scenes;
 }
 
-}  // namespace
-}  // namespace plumb::test
-
-int main(int argc, char** argv) {
-  using namespace plumb::test;
-  const int num_markers = argc > 1 ? std::stoi(argv[1]) : 800;
-  const std::string only = argc > 2 ? argv[2] : "";
-  const plumb::Camera camera = MakeCamera();
+void MeasureScenes(int num_markers, const Camera& camera) {
   std::vector<std::unique_ptr<Kind>> kinds;
   kinds.push_back(std::make_unique<CodedRings>(nullptr));
-  if (only != "own") kinds.push_back(std::make_unique<Aruco>());
-  if (only != "own") kinds.push_back(std::make_unique<Apriltag>());
+  kinds.push_back(std::make_unique<Aruco>());
+  kinds.push_back(std::make_unique<Apriltag>());
   for (const Scene& scene : Scenes()) {
     for (const std::unique_ptr<Kind>& kind : kinds) {
       Tally tally;
@@ -304,6 +300,79 @@ int main(int argc, char** argv) {
       }
       std::cout << Summary(*kind, scene, tally).dump() << std::endl;
     }
+  }
+}
+
+// Conditions change from photo to photo.
+void MeasureMixed(int num_markers, const Camera& camera) {
+  const CodedRings kind(nullptr);
+  Scene scene;
+  scene.name = "mixed";
+  scene.min_diameter_px = 8.0;
+  scene.diameter_px = 50.0;
+  scene.max_tilt_deg = 70.0;
+  scene.conditions.samples_per_axis = 4;
+  Tally tally;
+  for (int photo = 0; tally.num_shown < num_markers; ++photo) {
+    Random random(1000000 + photo);
+    scene.conditions.blur_px = random.Uniform(0.4, 1.8);
+    scene.conditions.noise = random.Uniform(0.5, 8.0);
+    scene.conditions.black = random.Uniform(20.0, 90.0);
+    scene.conditions.white = random.Uniform(scene.conditions.black + 40.0, 240.0);
+    scene.conditions.background = random.Uniform(20.0, 240.0);
+    MeasurePhoto(kind, scene, camera, photo + 1, &tally);
+  }
+  std::cout << Summary(kind, scene, tally).dump() << std::endl;
+}
+
+void MeasurePhotos(const std::string& folder) {
+  std::vector<cv::String> paths;
+  cv::glob(folder, paths, true);
+  for (const double megapixels : {0.0, 16.0}) {
+    int num_photos = 0;
+    int num_found = 0;
+    double cpu_s = 0.0;
+    double wall_s = 0.0;
+    for (const cv::String& path : paths) {
+      cv::Mat gray = cv::imread(path, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+      if (gray.empty()) continue;
+      if (megapixels > 0.0) {
+        const double scale = std::sqrt(megapixels * 1e6 / static_cast<double>(gray.total()));
+        cv::resize(gray, gray, {}, scale, scale, cv::INTER_CUBIC);
+      }
+      const double before_s = CpuSeconds();
+      const Stopwatch stopwatch;
+      num_found += static_cast<int>(DetectMarkers({}, gray).size());
+      wall_s += stopwatch.Seconds();
+      cpu_s += CpuSeconds() - before_s;
+      ++num_photos;
+    }
+    const double count = std::max(1, num_photos);
+    const Json result = {{"photos", num_photos},
+                         {"megapixels", megapixels},
+                         {"found", num_found},
+                         {"cpu_s", cpu_s / count},
+                         {"wall_s", wall_s / count}};
+    std::cout << result.dump() << std::endl;
+  }
+}
+
+}  // namespace
+}  // namespace plumb::test
+
+int main(int argc, char** argv) {
+  using namespace plumb::test;
+  const std::string what = argc == 3 ? argv[1] : "";
+  const plumb::Camera camera = MakeCamera();
+  if (what == "scenes") {
+    MeasureScenes(std::stoi(argv[2]), camera);
+  } else if (what == "mixed") {
+    MeasureMixed(std::stoi(argv[2]), camera);
+  } else if (what == "photos") {
+    MeasurePhotos(argv[2]);
+  } else {
+    std::cerr << "usage: marker_benchmark scenes|mixed NUMBER, or photos FOLDER\n";
+    return 2;
   }
   return 0;
 }

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <iostream>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "plumbline/marker/marker_sheet.h"
+#include "tools/commands.h"
+
+namespace plumb::tools {
+namespace {
+
+struct SheetArguments {
+  Paper paper = Paper::kA4;
+  Arrangement arrangement = Arrangement::kFixed;
+  int first_id = 0;
+  std::string output;
+};
+
+struct TargetArguments {
+  int id = 0;
+  double diameter_mm = 500.0;
+  std::string output;
+};
+
+void Write(const MarkerSheet& sheet, const std::string& output) {
+  for (const std::string& path : WriteMarkerSheet(sheet, output)) std::cout << path << '\n';
+  std::cout << sheet.title << '\n';
+}
+
+void AddSheet(CLI::App* markers, ExitCode* exit_code) {
+  CLI::App* command =
+      markers->add_subcommand("sheet", "The 4 x 4 markers to calibrate a camera with");
+  const auto arguments = std::make_shared<SheetArguments>();
+  const std::map<std::string, Paper> papers = {{"a4", Paper::kA4}, {"a3", Paper::kA3}};
+  const std::map<std::string, Arrangement> arrangements = {{"fixed", Arrangement::kFixed},
+                                                           {"loose", Arrangement::kLoose}};
+  command->add_option("--paper", arguments->paper, "a4 or a3")
+      ->transform(CLI::CheckedTransformer(papers, CLI::ignore_case));
+  command
+      ->add_option("--arrangement",
+                   arguments->arrangement,
+                   "fixed: one page; loose: four a page, to cut out and strew")
+      ->transform(CLI::CheckedTransformer(arrangements, CLI::ignore_case));
+  command->add_option("--first-id", arguments->first_id, "The first of 16 IDs")
+      ->capture_default_str();
+  command->add_option("--output", arguments->output, "A .pdf or .svg file")->required();
+  command->callback([arguments, exit_code] {
+    Write(LayOutGrid(arguments->paper, arguments->arrangement, arguments->first_id),
+          arguments->output);
+    *exit_code = kDone;
+  });
+}
+
+void AddTarget(CLI::App* markers, ExitCode* exit_code) {
+  CLI::App* command = markers->add_subcommand("target", "One marker, for a control point");
+  const auto arguments = std::make_shared<TargetArguments>();
+  command->add_option("--id", arguments->id, "The marker")->required();
+  command->add_option("--diameter-mm", arguments->diameter_mm, "Of its outer circle")
+      ->capture_default_str();
+  command->add_option("--output", arguments->output, "A .pdf or .svg file")->required();
+  command->callback([arguments, exit_code] {
+    Write(LayOutTarget(arguments->id, arguments->diameter_mm), arguments->output);
+    *exit_code = kDone;
+  });
+}
+
+}  // namespace
+
+void AddMarkersCommand(CLI::App* app, ExitCode* exit_code) {
+  CLI::App* command = app->add_subcommand("markers", "Coded markers to print, true to scale");
+  command->footer(
+      "Check a print with a ruler on its scale bar. A marker needs a white rim of a quarter of its "
+      "radius.\n" +
+      std::string(kExitCodes));
+  command->require_subcommand(1);
+  AddSheet(command, exit_code);
+  AddTarget(command, exit_code);
+}
+
+}  // namespace plumb::tools
