@@ -29,7 +29,6 @@ endif()
 # plumb_module(<name> <libraries…>): src/<name>/*.cc as plumb_<name>.
 function(plumb_module name)
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cc)
-  list(FILTER sources EXCLUDE REGEX "_main\\.cc$")
   if(sources)
     add_library(plumb_${name} STATIC ${sources})
     target_include_directories(plumb_${name} PUBLIC ${PROJECT_SOURCE_DIR}/include
@@ -68,7 +67,7 @@ target_compile_definitions(plumb_tools PRIVATE
                            PLUMBLINE_SCENARIOS="${PROJECT_SOURCE_DIR}/config/scenarios")
 file(STRINGS ${PROJECT_SOURCE_DIR}/package.xml version_line REGEX "<version>")
 string(REGEX REPLACE ".*<version>(.*)</version>.*" "\\1" PLUMBLINE_VERSION "${version_line}")
-add_executable(plumbline_tool ${PROJECT_SOURCE_DIR}/src/tools/plumbline_main.cc)
+add_executable(plumbline_tool ${PROJECT_SOURCE_DIR}/src/nodes/plumbline_main.cc)
 set_target_properties(plumbline_tool PROPERTIES OUTPUT_NAME plumbline)
 target_include_directories(plumbline_tool PRIVATE ${PROJECT_SOURCE_DIR}/src)
 target_compile_definitions(plumbline_tool PRIVATE PLUMBLINE_VERSION="${PLUMBLINE_VERSION}")
