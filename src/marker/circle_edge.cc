@@ -40,12 +40,13 @@ std::optional<double> FindRise(const std::vector<double>& values, double sign, d
     if (slope(i) > slope(steepest)) steepest = i;
   }
   if (slope(steepest) < min_step) return std::nullopt;
+  const int middle = count / 2;
   double weight_sum = 0.0;
   double sum = 0.0;
   for (int i = std::max(1, steepest - 3); i <= std::min(count - 2, steepest + 3); ++i) {
     const double weight = std::max(0.0, slope(i));
     weight_sum += weight;
-    sum += weight * (i - count / 2);
+    sum += weight * (i - middle);
   }
   return kSampleStepPx * sum / weight_sum;
 }
