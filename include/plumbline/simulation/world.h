@@ -37,8 +37,8 @@ struct WorldTriangle {
 };
 
 // A square plate with a picture, for a coded marker or a test pattern. The plate's frame: origin in
-// its centre, x right, y down (as the picture's), z into the plate. It stands a millimetre or more off
-// what carries it: of two surfaces in one place a ray meets either.
+// its centre, x right, y down (as the picture's), z into the plate. It stands a millimetre or more
+// off what carries it: of two surfaces in one place a ray meets either.
 struct Plate {
   int id = -1;  // Of the coded marker, or the place's number.
   Rigid3 world_from_plate;
