@@ -3,6 +3,9 @@
 # `make help` lists the targets. Debian's own python3 must come first: catkin and ROS's scripts need it.
 export PATH := /usr/bin:$(PATH)
 SHELL := /bin/bash
+# Clones of the project share what ccache holds: their own path is no part of its keys.
+export CCACHE_BASEDIR := $(CURDIR)
+export CCACHE_NOHASHDIR := 1
 BUILD ?= build
 SANITIZED := build-sanitize
 JOBS ?= $(shell nproc)

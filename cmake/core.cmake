@@ -89,6 +89,10 @@ function(plumb_module_test name)
   target_compile_definitions(${name}_test PRIVATE PLUMBLINE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_link_libraries(${name}_test PRIVATE ${ARGN} GTest::gmock GTest::gtest_main plumb_warnings)
   add_test(NAME ${name}_test COMMAND ${name}_test)
+  if(PLUMBLINE_SANITIZE)
+    set_property(TEST ${name}_test PROPERTY ENVIRONMENT
+                 LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/test/sanitizer_suppressions.txt)
+  endif()
 endfunction()
 foreach(module common geometry camera image marker map matching sfm simulation export evaluation tools)
   plumb_module_test(${module} plumb_${module} plumb_camera)  # test/support makes scenes.
