@@ -19,8 +19,8 @@ struct SurveySceneOptions {
   int num_targets = 17;
   double width_m = 50.0;
   double height_m = 30.0;
-  double relief_m = 0.5;    // Targets lie up to so far behind the facade's plane.
-  double noise_px = 0.05;   // Of a marker's centre, each axis.
+  double relief_m = 0.5;   // Targets lie up to so far behind the facade's plane.
+  double noise_px = 0.05;  // Of a marker's centre, each axis.
   double survey_sigma_m = 0.001;
   double gps_sigma_m = 0.0;
   int num_columns = 12;  // Of photos, in three rows.
