@@ -7,6 +7,11 @@ namespace plumb {
 std::vector<std::string> BundleOptions::Problems() const {
   ProblemList list;
   list.Require(huber_width_px > 0.0, "huber_width_px", "greater than 0", huber_width_px);
+  list.Require(feature_sigma_px > 0.0, "feature_sigma_px", "greater than 0", feature_sigma_px);
+  list.Require(distance_exponent >= 0.0 && distance_exponent <= 4.0,
+               "distance_exponent",
+               "from 0 to 4",
+               distance_exponent);
   list.Require(num_local_views >= 1, "num_local_views", "at least 1", num_local_views);
   list.Require(
       max_local_landmarks >= 100, "max_local_landmarks", "at least 100", max_local_landmarks);

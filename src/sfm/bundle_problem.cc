@@ -40,7 +40,11 @@ double WeightOf(const FeatureSet& features, std::uint32_t feature_idx) {
 // Copies views and landmarks of a map into a problem, each once.
 class ProblemBuilder {
  public:
-  ProblemBuilder(const Map& map, const LensParameters<double>& lens) : map_(map) {
+  // Observations of a photo count `influence` times as much; 1 where it is not told.
+  ProblemBuilder(const Map& map,
+                 const LensParameters<double>& lens,
+                 std::map<PhotoId, double> influences = {})
+      : map_(map), influences_(std::move(influences)) {
     problem_.lens = lens;
   }
 
@@ -55,16 +59,46 @@ class ProblemBuilder {
     for (const Observation& observation : landmark.track) {
       const View& view = map_.view(observation.photo);
       if ((view.cam_from_map * landmark.position_in_map).z() <= 0.0) continue;
-      problem_.observations.push_back({ViewIndex(observation.photo, /*is_fixed=*/true),
-                                       landmark_idx,
-                                       map_.PixelOf(observation),
-                                       WeightOf(*view.features, observation.feature_idx)});
+      problem_.observations.push_back(
+          {ViewIndex(observation.photo, /*is_fixed=*/true),
+           landmark_idx,
+           map_.PixelOf(observation),
+           InfluenceOf(observation.photo) * WeightOf(*view.features, observation.feature_idx)});
     }
+  }
+
+  void AddMarker(const MarkerTrack& track) {
+    const auto marker_idx = static_cast<std::uint32_t>(problem_.markers.size());
+    std::vector<BundleSighting> sightings;
+    for (const MarkerSighting& sighting : track.sightings) {
+      if (!IsBeforeCamera(sighting.photo, track.position_in_map)) continue;
+      sightings.push_back({ViewIndex(sighting.photo, /*is_fixed=*/true),
+                           marker_idx,
+                           sighting.center_px,
+                           sighting.sigma_px});
+    }
+    if (sightings.empty() || (sightings.size() < 2 && !track.survey)) return;
+    problem_.markers.push_back({track.marker_id, track.position_in_map, track.survey});
+    problem_.sightings.insert(problem_.sightings.end(), sightings.begin(), sightings.end());
+  }
+
+  void AddCenter(const CenterPrior& prior) {
+    if (!map_.HasView(prior.photo)) return;
+    problem_.centers.push_back({ViewIndex(prior.photo, /*is_fixed=*/true), prior.center});
   }
 
   BundleProblem Take() { return std::move(problem_); }
 
  private:
+  bool IsBeforeCamera(PhotoId photo, const Eigen::Vector3d& position_in_map) const {
+    return map_.HasView(photo) && (map_.view(photo).cam_from_map * position_in_map).z() > 0.0;
+  }
+
+  double InfluenceOf(PhotoId photo) const {
+    const auto influence = influences_.find(photo);
+    return influence == influences_.end() ? 1.0 : influence->second;
+  }
+
   std::uint32_t ViewIndex(PhotoId photo, bool is_fixed) {
     const auto next = static_cast<std::uint32_t>(problem_.views.size());
     const auto [it, is_new] = view_indices_.try_emplace(photo, next);
@@ -73,9 +107,43 @@ class ProblemBuilder {
   }
 
   const Map& map_;
+  std::map<PhotoId, double> influences_;
   BundleProblem problem_;
   std::unordered_map<PhotoId, std::uint32_t> view_indices_;
 };
+
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Median depth of the landmarks of each view that has any.
+std::map<PhotoId, double> SceneDistances(const Map& map) {
+  std::map<PhotoId, double> distances;
+  for (const auto& [photo, view] : map.views()) {
+    std::vector<double> depths;
+    for (const LandmarkId id : view.landmark_of_feature) {
+      if (!id.IsValid()) continue;
+      const double depth = (view.cam_from_map * map.landmark(id).position_in_map).z();
+      if (depth > 0.0) depths.push_back(depth);
+    }
+    if (!depths.empty()) distances[photo] = Median(std::move(depths));
+  }
+  return distances;
+}
+
+// The multi-scale term, docs/bundle.md.
+std::map<PhotoId, double> InfluencesByDistance(const Map& map, double exponent) {
+  if (exponent == 0.0) return {};
+  std::map<PhotoId, double> influences = SceneDistances(map);
+  if (influences.empty()) return {};
+  std::vector<double> distances;
+  for (const auto& [photo, distance] : influences) distances.push_back(distance);
+  const double median = Median(std::move(distances));
+  for (auto& [photo, influence] : influences) influence = std::pow(influence / median, exponent);
+  return influences;
+}
 
 Similarity3 MotionOf(const BundleView& before, const BundleView& after) {
   const Rigid3 motion = after.cam_from_map.Inverse() * before.cam_from_map;
@@ -110,10 +178,15 @@ Motions MotionsOfViews(const BundleProblem& before, const BundleProblem& after, 
 
 }  // namespace
 
-BundleProblem MakeGlobalBundle(const Map& map, const LensParameters<double>& lens) {
-  ProblemBuilder builder(map, lens);
+BundleProblem MakeGlobalBundle(const BundleOptions& options,
+                               const Map& map,
+                               const LensParameters<double>& lens,
+                               const BundleConstraints& constraints) {
+  ProblemBuilder builder(map, lens, InfluencesByDistance(map, options.distance_exponent));
   for (const auto& [photo, view] : map.views()) builder.AddView(photo, /*is_fixed=*/false);
   for (const LandmarkId id : map.LandmarkIds()) builder.AddLandmark(id);
+  for (const MarkerTrack& marker : constraints.markers) builder.AddMarker(marker);
+  for (const CenterPrior& center : constraints.centers) builder.AddCenter(center);
   return builder.Take();
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "plumbline/sfm/bundle_problem.h"
+#include "sfm/measured_position_cost.h"
 #include "sfm/reprojection_cost.h"
 
 namespace plumb {
@@ -14,6 +15,9 @@ namespace {
 
 // Above this many free views the reduced camera matrix is sparse enough for SuiteSparse to win.
 constexpr int kMaxDenseViews = 60;
+
+// Measured positions that hold a gauge of seven degrees of freedom.
+constexpr std::size_t kAnchors = 3;
 
 class CancelCallback : public ceres::IterationCallback {
  public:
@@ -39,7 +43,9 @@ class Solver {
     ceres_options.disable_all_safety_checks = true;
     ceres_ = std::make_unique<ceres::Problem>(ceres_options);
     FillBlocks();
-    AddResiduals();
+    AddFeatures();
+    AddMarkers();
+    AddCenters();
     HoldLens();
     HoldViews();
   }
@@ -77,19 +83,56 @@ class Solver {
     lens_ = bundle_.lens;
   }
 
-  void AddResiduals() {
-    const bool refines_lens = RefinesLens();
+  void AddFeatures() {
     for (const BundleObservation& observation : bundle_.observations) {
-      double* pose = poses_[observation.view_idx].data();
-      double* point = bundle_.landmarks[observation.landmark_idx].position_in_map.data();
-      auto* cost = new ReprojectionCost(observation.pixel,
-                                        observation.weight,
-                                        &references_[observation.view_idx],
-                                        refines_lens ? nullptr : &bundle_.lens);
-      std::vector<double*> blocks = {pose, point};
-      if (refines_lens) blocks.push_back(lens_.data());
-      ceres_->AddResidualBlock(cost, &loss_, blocks);
+      AddReprojection(observation.view_idx,
+                      observation.pixel,
+                      observation.weight,
+                      &bundle_.landmarks[observation.landmark_idx].position_in_map);
     }
+  }
+
+  void AddMarkers() {
+    for (const BundleSighting& sighting : bundle_.sightings) {
+      AddReprojection(sighting.view_idx,
+                      sighting.center_px,
+                      options_.feature_sigma_px / sighting.sigma_px,
+                      &bundle_.markers[sighting.marker_idx].position_in_map);
+    }
+    for (BundleMarker& marker : bundle_.markers) {
+      if (marker.survey) AddMeasured(*marker.survey, marker.position_in_map.data(), 3, 0);
+    }
+  }
+
+  void AddCenters() {
+    for (const BundleCenter& prior : bundle_.centers) {
+      AddMeasured(prior.center, poses_[prior.view_idx].data(), kPoseBlockSize, 3);
+    }
+  }
+
+  void AddReprojection(std::uint32_t view_idx,
+                       const Eigen::Vector2d& pixel,
+                       double weight,
+                       Eigen::Vector3d* position_in_map) {
+    const bool refines_lens = RefinesLens();
+    auto* cost = new ReprojectionCost(
+        pixel, weight, &references_[view_idx], refines_lens ? nullptr : &bundle_.lens);
+    std::vector<double*> blocks = {poses_[view_idx].data(), position_in_map->data()};
+    if (refines_lens) blocks.push_back(lens_.data());
+    ceres_->AddResidualBlock(cost, &loss_, blocks);
+  }
+
+  void AddMeasured(const MeasuredPosition& measured, double* block, int block_size, int offset) {
+    const double weight = options_.feature_sigma_px / measured.sigma;
+    auto* cost = new MeasuredPositionCost(measured.position_in_map, weight, block_size, offset);
+    ceres_->AddResidualBlock(cost, &loss_, block);
+  }
+
+  // Whether measured positions leave nothing of the gauge open.
+  bool IsAnchored() const {
+    std::size_t num_measured = bundle_.centers.size();
+    for (const BundleMarker& marker : bundle_.markers) num_measured += marker.survey ? 1 : 0;
+    return num_measured >= kAnchors;
   }
 
   void HoldLens() {
@@ -116,7 +159,7 @@ class Solver {
         ceres_->SetParameterBlockConstant(poses_[i].data());
       }
     }
-    if (!has_fixed) HoldGauge();
+    if (!has_fixed && !IsAnchored()) HoldGauge();
   }
 
   // Seven degrees of freedom: the first view's pose and, for the scale, the largest coordinate
@@ -154,11 +197,12 @@ class Solver {
     options.num_threads = options_.num_threads;
     options.logging_type = ceres::SILENT;
     options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
-    for (BundleLandmark& landmark : bundle_.landmarks) {
-      double* point = landmark.position_in_map.data();
+    const auto eliminate_first = [&](double* point) {
       if (ceres_->HasParameterBlock(point))
         options.linear_solver_ordering->AddElementToGroup(point, 0);
-    }
+    };
+    for (auto& landmark : bundle_.landmarks) eliminate_first(landmark.position_in_map.data());
+    for (auto& marker : bundle_.markers) eliminate_first(marker.position_in_map.data());
     for (auto& pose : poses_) {
       if (ceres_->HasParameterBlock(pose.data())) {
         options.linear_solver_ordering->AddElementToGroup(pose.data(), 1);

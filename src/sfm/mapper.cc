@@ -112,7 +112,7 @@ void Mapper::Impl::ManageBackground() {
   if (background_.IsRunning() || is_local_enough || !has_grown) return;
   num_views_at_last_bundle_ = num_views;
   background_start_ = num_photos_;
-  background_.Start(MakeGlobalBundle(map_, camera_.lens()));
+  background_.Start(MakeGlobalBundle(options_.bundle, map_, camera_.lens(), constraints_));
 }
 
 void Mapper::Impl::TakeBackground() {
@@ -144,7 +144,7 @@ void Mapper::Impl::FinalBundle() {
       ExpandMap(options, camera_, matches_, records_, photo, &map_);
     }
     CompleteTracks(options, camera_, matches_, map_.LandmarkIds(), &map_);
-    BundleProblem problem = MakeGlobalBundle(map_, camera_.lens());
+    BundleProblem problem = MakeGlobalBundle(options_.bundle, map_, camera_.lens(), constraints_);
     const BundleReport report = SolveBundle(options_.bundle,
                                             options_.bundle.max_global_iterations,
                                             options_.bundle.function_tolerance,
@@ -167,6 +167,10 @@ void Mapper::Add(MapperPhoto photo) { impl_->Add(std::move(photo)); }
 void Mapper::Poll() { impl_->Poll(); }
 
 void Mapper::Finish() { impl_->Finish(); }
+
+void Mapper::SetConstraints(BundleConstraints constraints) {
+  impl_->SetConstraints(std::move(constraints));
+}
 
 void Mapper::Restore(std::vector<MapperPhoto> photos,
                      const std::vector<PhotoVerdict>& verdicts,

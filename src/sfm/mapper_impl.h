@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "plumbline/common/stopwatch.h"
@@ -26,6 +27,7 @@ class Mapper::Impl {
   void Add(MapperPhoto photo);
   void Poll();
   void Finish();
+  void SetConstraints(BundleConstraints constraints) { constraints_ = std::move(constraints); }
   void Restore(std::vector<MapperPhoto> photos,
                const std::vector<PhotoVerdict>& verdicts,
                const MapDelta& snapshot);
@@ -123,6 +125,7 @@ class Mapper::Impl {
   std::vector<PhotoId> retry_queue_;
   std::vector<std::pair<PhotoId, PhotoId>> unmatched_pairs_;  // Of a restored map.
 
+  BundleConstraints constraints_;
   BackgroundBundle background_;
   std::size_t num_photos_ = 0;  // Added so far; the clock of deterministic runs.
   std::size_t background_start_ = 0;

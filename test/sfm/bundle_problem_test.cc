@@ -79,7 +79,7 @@ const Rigid3 kMotion{Eigen::Quaterniond(0.9, 0.1, -0.2, 0.3), {3.0, -2.0, 1.0}};
 
 TEST_F(BundleProblemTest, CarriesLaterViewsAndLandmarksByTheMotionOfAll) {
   MakeMap(4);
-  const BundleProblem before = MakeGlobalBundle(map_, scene_.camera.lens());
+  const BundleProblem before = MakeGlobalBundle({}, map_, scene_.camera.lens());
   for (const std::uint32_t photo : {4U, 5U, 6U}) AddView(photo);
   AddLandmarks();
   ASSERT_GT(map_.num_landmarks(), before.landmarks.size());
@@ -90,7 +90,7 @@ TEST_F(BundleProblemTest, CarriesLaterViewsAndLandmarksByTheMotionOfAll) {
 
 TEST_F(BundleProblemTest, CarriesAViewThatHangsOnALaterOneOfGreaterId) {
   MakeMap(2);
-  const BundleProblem before = MakeGlobalBundle(map_, scene_.camera.lens());
+  const BundleProblem before = MakeGlobalBundle({}, map_, scene_.camera.lens());
   // Photo 4 came first and was refused until 7 had been located; both after the bundle began.
   std::swap(scene_.cams_from_map[4], scene_.cams_from_map[7]);
   std::swap(scene_.observations[4], scene_.observations[7]);
@@ -106,7 +106,7 @@ TEST_F(BundleProblemTest, CarriesAViewThatHangsOnALaterOneOfGreaterId) {
 
 TEST_F(BundleProblemTest, PassesOverWhatHasGoneSince) {
   MakeMap(5);
-  const BundleProblem before = MakeGlobalBundle(map_, scene_.camera.lens());
+  const BundleProblem before = MakeGlobalBundle({}, map_, scene_.camera.lens());
   map_.RemoveView({0});
   map_.RemoveLandmark(map_.LandmarkIds().front());
   map_.RemoveLandmark(map_.LandmarkIds().back());
@@ -118,7 +118,7 @@ TEST_F(BundleProblemTest, PassesOverWhatHasGoneSince) {
 
 TEST_F(BundleProblemTest, AppliedToAnUnchangedMapIsTheSolution) {
   MakeMap(4);
-  const BundleProblem before = MakeGlobalBundle(map_, scene_.camera.lens());
+  const BundleProblem before = MakeGlobalBundle({}, map_, scene_.camera.lens());
   BundleProblem after = before;
   after.views[2].cam_from_map = kMotion;
   after.landmarks[7].position_in_map = {1.0, 2.0, 3.0};
@@ -153,7 +153,7 @@ TEST_F(BundleProblemTest, LocalBundleOfTheWholeMapFixesTheOldestView) {
 
 TEST_F(BundleProblemTest, GlobalBundleHoldsEveryObservationAndWeighsThemByScale) {
   MakeMap(4);
-  const BundleProblem problem = MakeGlobalBundle(map_, scene_.camera.lens());
+  const BundleProblem problem = MakeGlobalBundle({}, map_, scene_.camera.lens());
   EXPECT_EQ(problem.views.size(), 4U);
   EXPECT_EQ(problem.landmarks.size(), map_.num_landmarks());
   EXPECT_EQ(problem.observations.size(), map_.num_observations());

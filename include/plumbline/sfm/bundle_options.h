@@ -14,6 +14,15 @@ struct BundleOptions {
   // linearly. About four times the scatter of the residuals.
   double huber_width_px = 2.0;
 
+  // Scatter of the features' weighted residuals [px of the finest features]. It puts them on one
+  // scale with markers and measured positions, whose standard deviations are known.
+  double feature_sigma_px = 0.5;
+
+  // Multi-scale term of global bundles: residuals of a photo count by the distance of its scene,
+  // over the median distance, to this power. 0: all photos alike. 1: as a wall takes the square of
+  // that many more photos from nearer, rows at all distances have an equal say in it.
+  double distance_exponent = 0.0;
+
   // After a photo: it and this many of the views that share most landmarks with it move.
   int num_local_views = 6;
 
@@ -56,6 +65,8 @@ struct BundleOptions {
 template <typename Visitor>
 void VisitFields(BundleOptions& options, Visitor&& visit) {
   visit("huber_width_px", options.huber_width_px);
+  visit("feature_sigma_px", options.feature_sigma_px);
+  visit("distance_exponent", options.distance_exponent);
   visit("num_local_views", options.num_local_views);
   visit("max_local_landmarks", options.max_local_landmarks);
   visit("max_local_iterations", options.max_local_iterations);

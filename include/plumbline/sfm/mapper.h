@@ -15,6 +15,7 @@
 #include "plumbline/map/map.h"
 #include "plumbline/map/map_delta.h"
 #include "plumbline/map/photo_verdict.h"
+#include "plumbline/sfm/bundle_constraints.h"
 #include "plumbline/sfm/mapper_options.h"
 
 namespace plumb {
@@ -61,6 +62,10 @@ class Mapper {
   // No more photos for now: waits for the background, tries refused photos until no
   // more fit, bundles everything. Photos may be added afterwards.
   void Finish();
+
+  // Markers and measured positions for the global bundles from now on, in place of those given
+  // before. They are in the map as it is: give them anew when the map has moved against them.
+  void SetConstraints(BundleConstraints constraints);
 
   // Goes on from a stored session: its photos, the latest verdicts and the map.
   void Restore(std::vector<MapperPhoto> photos,
