@@ -352,6 +352,28 @@ TEST(Georeferencer, TakesTargetsThatAHandPointedAt) {
   EXPECT_EQ(georeferencer.Sightings().size(), scene.survey.pointed.size());
 }
 
+TEST(Georeferencer, HandsControlPointsToTheBundle) {
+  SurveyScene scene = MakeSurveyScene();
+  scene.survey.targets[7].point_in_crs.x() += 0.5;
+  Georeferencer georeferencer = MakeGeoreferencer(scene);
+  georeferencer.Update();
+  const BundleConstraints constraints = georeferencer.Constraints();
+  ASSERT_EQ(constraints.markers.size(), 17U);
+  int num_surveyed = 0;
+  for (const MarkerTrack& marker : constraints.markers) {
+    const SurveyTarget& target = scene.survey.targets[static_cast<std::size_t>(marker.marker_id)];
+    EXPECT_GE(marker.sightings.size(), 2U);
+    EXPECT_GT(marker.sightings[0].sigma_px, 0.1);
+    EXPECT_EQ(marker.survey.has_value(), !target.is_check && marker.marker_id != 7);
+    if (!marker.survey) continue;
+    ++num_surveyed;
+    EXPECT_NEAR(marker.survey->sigma, 0.001 * scene.map_from_enu.scale, 1e-6);
+    const Eigen::Vector3d truth = scene.map_from_enu * target.point_in_crs;
+    EXPECT_LT((marker.survey->position_in_map - truth).norm(), 2e-3 * scene.map_from_enu.scale);
+  }
+  EXPECT_EQ(num_surveyed, 11);
+}
+
 TEST(Georeferencer, RefusesBadOptions) {
   GeoreferencerOptions options;
   options.max_error_px = 0.0;

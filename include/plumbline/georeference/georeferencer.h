@@ -20,6 +20,7 @@
 #include "plumbline/image/photo_analysis.h"
 #include "plumbline/map/map_delta.h"
 #include "plumbline/marker/marker_detector.h"
+#include "plumbline/sfm/bundle_constraints.h"
 
 namespace plumb {
 
@@ -52,8 +53,12 @@ class Georeferencer {
   // What is known now.
   const Georeference& Update();
 
-  // The located photos' sightings that Update has used, for ToGcpList and a bundle.
+  // The located photos' sightings that Update has used, for ToGcpList.
   std::vector<PointedTarget> Sightings() const;
+
+  // The same for the mapper's bundle, by the last Update: every target is a track; good control
+  // points carry their survey, brought into the map. Check points and wrong ones do not.
+  BundleConstraints Constraints() const;
 
  private:
   struct Target {
