@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace plumb {
 namespace {
 
-constexpr std::size_t kMaxPhotos = 100;
+constexpr std::size_t kMaxPhotos = 50;
 
 }  // namespace
 
@@ -38,6 +39,7 @@ RobustSimilarity AlignToGps(const GeoreferencerOptions& options,
   }
   RobustSimilarityOptions robust;
   robust.max_bend_ratio = 0.0;  // What bends a map is far below GPS's error.
+  robust.max_normalized_error = std::numeric_limits<double>::infinity();
   return EstimateRobustSimilarity(robust, pairs);
 }
 

@@ -22,7 +22,7 @@ struct GpsPhoto {
 GeoFrame FrameAround(const GpsPhoto& photo);
 
 // enu_from_map that fits the photos' positions best, or why there is none; photos that are off by
-// far more than GPS is are left out. At most 100 photos, evenly spread, are used: the error that
+// far more than GPS is are left out. At most 50 photos, evenly spread, are used: the error that
 // all share does not fall with their number.
 RobustSimilarity AlignToGps(const GeoreferencerOptions& options,
                             const GeoFrame& frame,

@@ -23,8 +23,11 @@ using Indices = std::vector<int>;
 // Bound of the search on NormalizedError: four standard deviations on each axis.
 constexpr double kSearchBound = 4.0;
 
-// All triples of 18 pairs are 816.
+// All triples of 19 pairs are 969.
 constexpr int kMaxTriples = 1000;
+
+// Of more pairs so many triples are drawn: with half of the pairs wrong one in eight is good.
+constexpr int kNumDrawn = 300;
 
 // Leaving one out is tried with no more pairs than this: 60 take 5 ms, and cost grows by the
 // square.
@@ -63,7 +66,9 @@ class Estimator {
     if (IsOnLine(best.idxs)) return result;
     result.is_ambiguous = IsAmbiguous(best);
     Indices good = best.idxs;
-    while (good.size() > kMinOthers && good.size() <= kMaxSnoopedPairs && DropWorst(&good)) {
+    const bool is_snooped = std::isfinite(options_.max_normalized_error);
+    while (is_snooped && good.size() > kMinOthers && good.size() <= kMaxSnoopedPairs &&
+           DropWorst(&good)) {
     }
     Finish(good, &result);
     return result;
@@ -128,7 +133,7 @@ class Estimator {
     const double num_triples = count * (count - 1.0) * (count - 2.0) / 6.0;
     if (num_triples > kMaxTriples) {
       Sampler sampler(options_.random_seed);
-      for (int i = 0; i < kMaxTriples; ++i) TryTriple(sampler.Distinct<3>(count), &best);
+      for (int i = 0; i < kNumDrawn; ++i) TryTriple(sampler.Distinct<3>(count), &best);
       return best;
     }
     for (int i = 0; i < count; ++i) {

@@ -82,7 +82,7 @@ TEST(GeoFrame, PlacesItsOriginOnEarth) {
   const Vector3d up = *earth_from_enu * Vector3d(0, 0, 1) - *earth_from_enu * Vector3d(0, 0, 0);
   EXPECT_NEAR(
       up.dot(expected.normalized()), 1.0, 1e-5);  // The ellipsoid's normal, not the sphere's.
-  const auto east = *earth_from_enu * Vector3d(1, 0, 0) - *earth_from_enu * Vector3d(0, 0, 0);
+  const Vector3d east = *earth_from_enu * Vector3d(1, 0, 0) - *earth_from_enu * Vector3d(0, 0, 0);
   EXPECT_NEAR(east.z(), 0.0, 1e-9);
 }
 

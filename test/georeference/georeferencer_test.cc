@@ -231,7 +231,8 @@ TEST(Georeferencer, WarnsOfTargetsOnALine) {
   SurveyScene scene = MakeSurveyScene();
   const auto put_on_line = [&](double width_m) {
     for (std::size_t i = 0; i < scene.targets_in_enu.size(); ++i) {
-      scene.targets_in_enu[i] = {3.0 * static_cast<double>(i), 0.0, 15.0 + (i % 2) * width_m};
+      scene.targets_in_enu[i] = {
+          3.0 * static_cast<double>(i), 0.0, 15.0 + (i % 2 == 0 ? 0.0 : width_m)};
       scene.survey.targets[i].point_in_crs = scene.targets_in_enu[i];
     }
     TakePhotos({}, &scene);

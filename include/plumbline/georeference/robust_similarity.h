@@ -23,10 +23,11 @@ struct RobustSimilarityOptions {
   // 23 mm in 58 m, which is 0.0004.
   double max_bend_ratio = 0.0005;
 
-  // A pair is wrong if it is off by this many times what the others leave.
+  // A pair is wrong if it is off by this many times what the others leave. Infinite: that is not
+  // looked at.
   double max_normalized_error = 5.0;
 
-  int random_seed = 1;  // Only with more than 18 pairs are triples drawn by chance.
+  int random_seed = 1;  // Only with more than 19 pairs are triples drawn by chance.
 };
 
 using Matrix7d = Eigen::Matrix<double, 7, 7>;
