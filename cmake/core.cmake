@@ -50,6 +50,7 @@ plumb_module(marker plumb_image PkgConfig::CAIRO)
 plumb_module(map plumb_image PkgConfig::SQLITE3 nlohmann_json::nlohmann_json)
 plumb_module(matching plumb_map opencv_core)
 plumb_module(sfm plumb_matching Ceres::ceres)
+plumb_module(georeference plumb_sfm plumb_marker PkgConfig::PROJ)
 plumb_module(simulation plumb_marker embree PkgConfig::PROJ)
 # A vectorised square root sets no errno.
 set_source_files_properties(src/simulation/develop.cc PROPERTIES COMPILE_OPTIONS -fno-math-errno)
@@ -62,7 +63,7 @@ target_link_libraries(plumb_evaluation PRIVATE CGAL::CGAL)
 target_include_directories(plumb_evaluation SYSTEM PRIVATE ${NANOFLANN_INCLUDE_DIR})
 
 # The command-line program; all but its main is a library, so that it can be tested.
-plumb_module(tools plumb_evaluation plumb_marker plumb_simulation yaml-cpp CLI11::CLI11)
+plumb_module(tools plumb_evaluation plumb_georeference plumb_marker plumb_simulation yaml-cpp CLI11::CLI11)
 target_compile_definitions(plumb_tools PRIVATE
                            PLUMBLINE_SCENARIOS="${PROJECT_SOURCE_DIR}/config/scenarios")
 file(STRINGS ${PROJECT_SOURCE_DIR}/package.xml version_line REGEX "<version>")
@@ -94,7 +95,7 @@ function(plumb_module_test name)
                  LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/test/sanitizer_suppressions.txt)
   endif()
 endfunction()
-foreach(module common geometry camera image marker map matching sfm simulation export evaluation tools)
+foreach(module common geometry camera image marker map matching sfm georeference simulation export evaluation tools)
   plumb_module_test(${module} plumb_${module} plumb_camera)  # test/support makes scenes.
 endforeach()
 

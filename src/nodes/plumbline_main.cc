@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
   AddReconstructCommand(&app, &exit_code);
   AddCheckCommand(&app, &exit_code);
   AddEvaluateCommand(&app, &exit_code);
+  AddGeoreferenceCommand(&app, &exit_code);
   AddExportCommand(&app, &exit_code);
   AddMarkersCommand(&app, &exit_code);
   AddDetectCommand(&app, &exit_code);

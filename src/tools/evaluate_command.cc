@@ -3,11 +3,14 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "plumbline/evaluation/pose_evaluation.h"
+#include "plumbline/georeference/georeference_file.h"
 #include "plumbline/map/session_store.h"
 #include "tools/commands.h"
 #include "tools/geometry_report.h"
+#include "tools/georeference.h"
 #include "tools/original_names.h"
 
 namespace plumb::tools {
@@ -36,20 +39,33 @@ Json ToJson(const PoseEvaluation& evaluation) {
           {"photos", photos}};
 }
 
+// Of the markers; how the map lies is in them too.
+Json ToSurveyJson(const Georeference& georeference) {
+  Json json = ToJson(georeference);
+  for (const char* key : {"source", "coarse", "map_sequence", "earth_from_map", "gps"}) {
+    json.erase(key);
+  }
+  return json;
+}
+
 struct EvaluateArguments {
-  std::string session;
   std::string poses;
   GeometryTruth truth;
+  GeoreferenceArguments georeference;  // With the session.
 };
 
 void AddOptions(CLI::App* command, EvaluateArguments* arguments) {
-  command->add_option("--session", arguments->session, "Folder of the session")->required();
-  command
-      ->add_option("--truth",
-                   arguments->poses,
-                   "CSV: photo,qw,qx,qy,qz,center_x_m,center_y_m,center_z_m (cam_from_world "
-                   "rotation, camera centre in metres)")
+  command->add_option("--session", arguments->georeference.session, "Folder of the session")
       ->required();
+  command->add_option("--truth",
+                      arguments->poses,
+                      "CSV: photo,qw,qx,qy,qz,center_x_m,center_y_m,center_z_m (cam_from_world "
+                      "rotation, camera centre in metres)");
+  command->add_option("--survey",
+                      arguments->georeference.survey,
+                      "Survey of coded markers, as plumbline georeference takes it");
+  command->add_option(
+      "--crs", arguments->georeference.crs, "Of the survey, instead of its own word");
   GeometryTruth* truth = &arguments->truth;
   command->add_option("--surface",
                       truth->surface,
@@ -69,10 +85,9 @@ void AddOptions(CLI::App* command, EvaluateArguments* arguments) {
       ->capture_default_str();
 }
 
-void Evaluate(const EvaluateArguments& arguments) {
+Json EvaluateByTruth(const EvaluateArguments& arguments, const SessionStore& store) {
   GeometryTruth truth = arguments.truth;
   truth.photos = ReadTruePoses(arguments.poses);
-  const SessionStore store = SessionStore::OpenExisting(arguments.session);
   const MapDelta snapshot = store.Snapshot();
   const PoseEvaluation poses =
       EvaluatePoses(WithOriginalNames(snapshot.views_set, store.Photos()), truth.photos);
@@ -82,20 +97,42 @@ void Evaluate(const EvaluateArguments& arguments) {
     points_in_world.push_back(poses.world_from_map * landmark.position_in_map);
   }
   ReportGeometry(truth, store.camera(), points_in_world, &report);
+  return report;
+}
+
+void Evaluate(const EvaluateArguments& arguments) {
+  const bool has_survey = !arguments.georeference.survey.empty();
+  if (arguments.poses.empty() && !has_survey) {
+    throw std::runtime_error("nothing to evaluate against; give --truth, --survey or both");
+  }
+  const bool has_geometry = !arguments.truth.surface.empty() || !arguments.truth.laser.empty();
+  if (arguments.poses.empty() && has_geometry) {
+    throw std::runtime_error("--surface and --laser need the alignment by --truth; give it too");
+  }
+  const SessionStore store = SessionStore::OpenExisting(arguments.georeference.session);
+  Json report = Json::object();
+  if (!arguments.poses.empty()) report = EvaluateByTruth(arguments, store);
+  if (has_survey) {
+    Console console(&std::cerr, /*is_terminal=*/false);
+    report["survey"] =
+        ToSurveyJson(GeoreferenceSession(arguments.georeference, store, &console).georeference);
+  }
   std::cout << report.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
 }
 
 }  // namespace
 
 void AddEvaluateCommand(CLI::App* app, ExitCode* exit_code) {
-  CLI::App* command =
-      app->add_subcommand("evaluate", "Compare a session's cameras and points with their truth");
+  CLI::App* command = app->add_subcommand(
+      "evaluate", "Compare a session's cameras, points and markers with their truth");
   command->footer(
       "Prints JSON: photos registered, mean, median and largest error of the camera centres [mm] "
       "and rotations [deg] after the similarity that fits the centres best, those of each photo, "
       "and which are wrong (beyond 100 mm or 1 degree). With --surface or --laser also the points' "
-      "accuracy, completeness and F-score, and the bend of the flat wall [mm]; see "
-      "docs/evaluation.md. Photos are paired by the names they had where they came from.");
+      "accuracy, completeness and F-score, and the bend of the flat wall [mm]. With --survey, "
+      "which "
+      "needs no --truth, the errors of control and check points [mm]; see docs/evaluation.md. "
+      "Photos are paired by the names they had where they came from.");
   const auto arguments = std::make_shared<EvaluateArguments>();
   AddOptions(command, arguments.get());
   command->callback([arguments, exit_code] {

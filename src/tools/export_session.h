@@ -9,8 +9,16 @@
 
 namespace plumb::tools {
 
+// What an export did, for a person: "wrote …" of each file, and in which frame if not the map's.
+using ExportLines = std::vector<std::string>;
+
 // Writes colmap/{cameras,images,points3D}.txt and points.ply into `folder`, which is made if need
-// be; returns what was written. Throws std::runtime_error naming the file and the cause.
-std::vector<std::string> ExportSession(const SessionStore& store, const std::string& folder);
+// be. Without a georeference of this very map, in the map's frame. With one:
+//   colmap      the local metric frame enu: COLMAP's cameras need a Euclidean one
+//   points.ply  the survey's CRS less the frame's origin, which stands in its comments; enu if the
+//               CRS counts in degrees
+//   frame.json  the CRS and the origin
+// Throws std::runtime_error naming the file and the cause.
+ExportLines ExportSession(const SessionStore& store, const std::string& folder);
 
 }  // namespace plumb::tools

@@ -163,8 +163,8 @@ void WriteResults(const SessionStore& store,
                   const Stopwatch& wall,
                   RunReport* report,
                   Console* console) {
-  for (const std::string& path : ExportSession(store, store.folder() + "/export")) {
-    console->PrintLine("wrote " + path);
+  for (const std::string& line : ExportSession(store, store.folder() + "/export")) {
+    console->PrintLine(line);
   }
   report->wall_s = wall.Seconds();
   report->usage = CurrentProcessUsage();

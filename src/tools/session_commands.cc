@@ -22,7 +22,9 @@ void AddExportCommand(CLI::App* app, ExitCode* exit_code) {
       app->add_subcommand("export", "Write the map of a session for other programs");
   command->footer(
       "Writes colmap/{cameras,images,points3D}.txt (COLMAP's text model) and points.ply, in the "
-      "map's frame and unit of length.");
+      "map's frame and unit of length. After plumbline georeference in metres: points.ply in the "
+      "survey's CRS less an offset, COLMAP's model in the local frame about it; frame.json says "
+      "which.");
   const auto arguments = std::make_shared<SessionArguments>();
   command->add_option("--session", arguments->session, "Folder of the session")->required();
   command->add_option(
@@ -31,9 +33,7 @@ void AddExportCommand(CLI::App* app, ExitCode* exit_code) {
     const SessionStore store = SessionStore::OpenExisting(arguments->session);
     const std::string folder =
         arguments->path.empty() ? arguments->session + "/export" : arguments->path;
-    for (const std::string& path : ExportSession(store, folder)) {
-      std::cout << "wrote " << path << '\n';
-    }
+    for (const std::string& line : ExportSession(store, folder)) std::cout << line << '\n';
     *exit_code = kDone;
   });
 }
