@@ -41,7 +41,7 @@ def run(arguments):
     results["scenes"] = measure(program, "scenes", str(per_scene))
     for scene in find_scenes(arguments.data, None):
         results["photos"][scene.name] = measure(program, "photos", scene.photos)[0]
-    results["mixed"] = measure(program, "mixed", str(mixed))[0]
+    results["mixed"] = measure(program, "mixed", str(mixed))[-1]
     results["figures"] = figures(results)
     results["failures"] += ["markers: %s: %s, but must be %s" % (name, shown, bound)
                             for name, bound, shown, is_met in results["figures"]

@@ -4,6 +4,9 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
 
 #include "marker/circle_edge.h"
 #include "marker/code_reader.h"
@@ -19,8 +22,17 @@ namespace {
 // A lens without a calibration is taken to have a focal length of half the photo's width or more.
 constexpr double kMinFocalPerWidth = 0.5;
 constexpr double kMinEdgeShare = 0.15;  // Of the contrast that an edge rises by within a pixel.
+constexpr double kMaxReachShare = 0.35;
 constexpr double kFineReachPx = 2.0;
 constexpr double kMinDiscPx = 4.0;
+
+// What the quick look at a candidate's rim asks for: enough contrast across it, and a rise of a
+// share of that in most directions. Lenient: a candidate's ellipse is off by half a pixel of its
+// level.
+constexpr int kNumLooks = 16;
+constexpr int kMinLooks = 11;
+constexpr double kMinLookRise = 0.25;
+constexpr double kMinLookContrast = 0.3;  // Of the least contrast of a marker; blur takes the rest.
 
 // Homography from the canonical circle, without a rotation, by the outer ellipse and the seen
 // centre of the circle. A homography [A c; v 1] maps the centre of a circle of radius r to c, and
@@ -44,11 +56,36 @@ Eigen::Matrix3d HomographyOfCircles(const Ellipse& outer, const std::optional<El
   return homography;
 }
 
+// Whether it is darker inside than outside most of its rim; spares the closer look at most texture.
+bool HasDarkInside(const GraySampler& gray, const MarkerCandidate& candidate, double min_contrast) {
+  const Ellipse& ellipse = candidate.ellipse;
+  const double step_px = std::max(0.6 * candidate.reduction, 0.12 * ellipse.semi_minor_px);
+  if (!gray.ContainsSquare(ellipse.center_px, ellipse.semi_major_px + step_px)) return false;
+  const Eigen::Matrix2d pixel_from_circle = ellipse.PixelFromCircle();
+  std::array<double, kNumLooks> rises;
+  for (int i = 0; i < kNumLooks; ++i) {
+    const double angle_rad = 2.0 * M_PI * i / kNumLooks;
+    const Eigen::Vector2d ray =
+        pixel_from_circle * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
+    const Eigen::Vector2d step = step_px * ray.normalized();
+    rises[static_cast<std::size_t>(i)] =
+        gray.At(ellipse.center_px + ray + step) - gray.At(ellipse.center_px + ray - step);
+  }
+  const double mean = std::accumulate(rises.begin(), rises.end(), 0.0) / kNumLooks;
+  const auto num_rises = std::count_if(
+      rises.begin(), rises.end(), [mean](double rise) { return rise > kMinLookRise * mean; });
+  return mean >= kMinLookContrast * min_contrast && num_rises >= kMinLooks;
+}
+
 }  // namespace
 
 std::optional<Ellipse> MarkerExaminer::FindOuterEllipse(const MarkerCandidate& candidate) const {
+  if (!HasDarkInside(gray_, candidate, options_.min_contrast)) return std::nullopt;
   EdgeSearch search;
-  search.reach_px = std::max(1.5 * candidate.reduction, 0.12 * candidate.ellipse.semi_minor_px);
+  const double minor_px = candidate.ellipse.semi_minor_px;
+  search.reach_px = std::max(1.5 * candidate.reduction, 0.12 * minor_px);
+  // Not into the code, where a small marker's edges are steeper than its rim.
+  search.reach_px = std::min(search.reach_px, std::max(1.5, kMaxReachShare * minor_px));
   search.min_step = kMinEdgeShare * options_.min_contrast;
   const std::optional<Ellipse> found = RefineEllipse(gray_, candidate.ellipse, search);
   if (!found || found->semi_minor_px < 0.45 * options_.min_diameter_px ||

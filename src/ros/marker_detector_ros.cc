@@ -125,9 +125,9 @@ void MarkerDetectorRos::Search(const ArrivedPhoto& arrived) {
   plumbline::MarkerDetectionArray answer =
       AnswerTo(arrived.header, arrived.photo.id.value, arrived.photo.name);
   FillIn(search, arrived.since_arrival.Seconds(), &answer);
+  Keep(answer);  // Before anybody hears it: who asks again then gets it again.
   detections_publisher_.publish(answer);
   Log(answer);
-  Keep(answer);
   Show(search, answer);
 }
 

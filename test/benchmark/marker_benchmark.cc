@@ -187,7 +187,7 @@ void MeasureScenes(int num_markers, const Camera& camera) {
   }
 }
 
-// Conditions change from photo to photo.
+// Conditions change from photo to photo. The results so far are said again and again.
 void MeasureMixed(int num_markers, const Camera& camera) {
   const CodedRings kind(nullptr);
   Scene scene = MakeScene("mixed", 50.0, 70.0);
@@ -195,8 +195,12 @@ void MeasureMixed(int num_markers, const Camera& camera) {
   scene.min_tilt_deg = 0.0;
   scene.spacing_px = 80;
   scene.conditions.samples_per_axis = 4;
+  constexpr int kPhotosPerResult = 25;
   Tally tally;
   for (int photo = 0; tally.num_shown < num_markers; ++photo) {
+    if (photo % kPhotosPerResult == kPhotosPerResult - 1) {
+      std::cout << Summary(kind, scene, tally).dump() << std::endl;
+    }
     Random random(1000000 + photo);
     scene.conditions.blur_px = random.Uniform(0.4, 1.8);
     scene.conditions.noise = random.Uniform(0.5, 8.0);
