@@ -29,6 +29,8 @@ constexpr double kMinDiscPx = 4.0;
 // What the quick look at a candidate's rim asks for: enough contrast across it, and a rise of a
 // share of that in most directions. Lenient: a candidate's ellipse is off by half a pixel of its
 // level.
+constexpr double kLookIn = 0.1;  // Radii: the middle of the black ring, short of the code.
+constexpr double kLookOutPerReduction = 0.6;
 constexpr int kNumLooks = 16;
 constexpr int kMinLooks = 11;
 constexpr double kMinLookRise = 0.25;
@@ -59,17 +61,18 @@ Eigen::Matrix3d HomographyOfCircles(const Ellipse& outer, const std::optional<El
 // Whether it is darker inside than outside most of its rim; spares the closer look at most texture.
 bool HasDarkInside(const GraySampler& gray, const MarkerCandidate& candidate, double min_contrast) {
   const Ellipse& ellipse = candidate.ellipse;
-  const double step_px = std::max(0.6 * candidate.reduction, 0.12 * ellipse.semi_minor_px);
-  if (!gray.ContainsSquare(ellipse.center_px, ellipse.semi_major_px + step_px)) return false;
+  const double in_px = kLookIn * ellipse.semi_minor_px;
+  const double out_px = std::max(kLookOutPerReduction * candidate.reduction, in_px);
+  if (!gray.ContainsSquare(ellipse.center_px, ellipse.semi_major_px + out_px)) return false;
   const Eigen::Matrix2d pixel_from_circle = ellipse.PixelFromCircle();
   std::array<double, kNumLooks> rises;
   for (int i = 0; i < kNumLooks; ++i) {
     const double angle_rad = 2.0 * M_PI * i / kNumLooks;
     const Eigen::Vector2d ray =
         pixel_from_circle * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
-    const Eigen::Vector2d step = step_px * ray.normalized();
-    rises[static_cast<std::size_t>(i)] =
-        gray.At(ellipse.center_px + ray + step) - gray.At(ellipse.center_px + ray - step);
+    const Eigen::Vector2d outward = ray.normalized();
+    rises[static_cast<std::size_t>(i)] = gray.At(ellipse.center_px + ray + out_px * outward) -
+                                         gray.At(ellipse.center_px + ray - in_px * outward);
   }
   const double mean = std::accumulate(rises.begin(), rises.end(), 0.0) / kNumLooks;
   const auto num_rises = std::count_if(

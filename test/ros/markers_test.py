@@ -139,7 +139,9 @@ class MarkersTest(unittest.TestCase):
         first = self.wait_for(1)
         photo.image.data = b"not read again"
         self.photos.publish(photo)
-        self.assertEqual(self.wait_for(1, times=2), first)
+        again = self.wait_for(1, times=2)
+        again.header.seq = first.header.seq  # Which counts messages.
+        self.assertEqual(again, first)
 
     def test_each_photo_is_answered_where_the_queue_is_full_with_that_reason(self):
         self.start(max_queue=1)
