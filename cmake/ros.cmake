@@ -12,8 +12,9 @@ file(MAKE_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib/python3/dist-packages)
 find_package(catkin REQUIRED COMPONENTS cv_bridge diagnostic_msgs
              diagnostic_updater geometry_msgs message_generation nav_msgs rosbag_storage roscpp sensor_msgs std_msgs std_srvs tf2_ros visualization_msgs)
 
-add_message_files(FILES LandmarkStates.msg MapDelta.msg ObservationStates.msg Photo.msg
-                  PhotoVerdict.msg StoredPhotos.msg ViewState.msg)
+add_message_files(FILES LandmarkStates.msg MapDelta.msg MarkerDetection.msg
+                  MarkerDetectionArray.msg ObservationStates.msg Photo.msg PhotoVerdict.msg
+                  StoredPhotos.msg ViewState.msg)
 add_service_files(FILES GetMap.srv)
 generate_messages(DEPENDENCIES geometry_msgs sensor_msgs std_msgs)
 catkin_package(CATKIN_DEPENDS message_runtime geometry_msgs sensor_msgs std_msgs)
@@ -24,7 +25,8 @@ add_dependencies(plumb_ros ${PROJECT_NAME}_generate_messages_cpp)
 target_include_directories(plumb_ros PUBLIC ${PROJECT_SOURCE_DIR}/src)
 target_include_directories(plumb_ros SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/include
                            ${catkin_INCLUDE_DIRS})
-target_link_libraries(plumb_ros PUBLIC plumb_export ${catkin_LIBRARIES} PRIVATE plumb_warnings)
+target_link_libraries(plumb_ros PUBLIC plumb_export plumb_marker ${catkin_LIBRARIES}
+                      PRIVATE plumb_warnings)
 
 # src/nodes/<name>_node.cc becomes `rosrun plumbline <name>`.
 file(GLOB node_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/nodes/*_node.cc)

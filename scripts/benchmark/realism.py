@@ -14,8 +14,9 @@ import subprocess
 import yaml
 
 from benchmark.measure import log
+from benchmark.programs import built_benchmark
 from benchmark.scenes import Scene, find_scenes
-from benchmark.simulation import ROOT, simulate
+from benchmark.simulation import simulate
 from benchmark.tables import number, print_table
 
 REAL = ["fountain-P11", "Herz-Jesus-P8"]
@@ -32,16 +33,6 @@ def add_arguments(_):
     pass
 
 
-def built_benchmark():
-    """Benchmarks are not in the target all."""
-    build = os.path.join(ROOT, "build")
-    subprocess.run(["cmake", "--build", build, "--target", "realism_benchmark"], check=True,
-                   stdout=subprocess.DEVNULL)
-    paths = [os.path.join(build, "realism_benchmark"),
-             os.path.join(ROOT, "devel", "lib", "plumbline", "realism_benchmark")]
-    return next(path for path in paths if os.path.exists(path))
-
-
 def measure(program, folder):
     done = subprocess.run([program, folder, str(MAX_PHOTOS)], capture_output=True, text=True)
     if done.returncode != 0:
@@ -51,7 +42,7 @@ def measure(program, folder):
 
 def run(arguments):
     results = {"scenes": {}, "simulated": [], "failures": []}
-    program = built_benchmark()
+    program = built_benchmark("realism_benchmark")
     scenes = [(name, None, lambda name=name: find_scenes(arguments.data, [name])[0])
               for name in REAL]
     scenes += [(name, None, lambda name=name: reduced(find_scenes(arguments.data, [name])[0],
