@@ -47,6 +47,7 @@ plumb_module(camera plumb_geometry yaml-cpp)
 plumb_module(image plumb_camera opencv_core opencv_imgproc opencv_imgcodecs opencv_features2d
              PkgConfig::LIBJPEG PkgConfig::EXIV2 ZLIB::ZLIB)
 plumb_module(marker plumb_image PkgConfig::CAIRO)
+plumb_module(calibration plumb_marker Ceres::ceres nlohmann_json::nlohmann_json PkgConfig::CAIRO)
 plumb_module(map plumb_image PkgConfig::SQLITE3 nlohmann_json::nlohmann_json)
 plumb_module(matching plumb_map opencv_core)
 plumb_module(sfm plumb_matching Ceres::ceres)
@@ -94,7 +95,7 @@ function(plumb_module_test name)
                  LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/test/sanitizer_suppressions.txt)
   endif()
 endfunction()
-foreach(module common geometry camera image marker map matching sfm simulation export evaluation tools)
+foreach(module common geometry camera image marker calibration map matching sfm simulation export evaluation tools)
   plumb_module_test(${module} plumb_${module} plumb_camera)  # test/support makes scenes.
 endforeach()
 
