@@ -45,11 +45,11 @@ struct CalibrationOptions {
   // is estimated anew from the heights found, within a tenth and ten times of this.
   double height_sigma = 0.02;
 
-  // What counts as good: standard deviations of the focal length, of the principal point, and
-  // of where a ray meets the image, RMS over the image, after the best turn of the camera.
+  // What counts as good: standard deviations of the focal length, of the principal point, and of
+  // the distortion (LensEstimate::distortion_sigma_px).
   double max_focal_sigma_percent = 0.05;
   double max_principal_sigma_px = 1.0;
-  double max_projection_sigma_px = 0.1;
+  double max_distortion_sigma_px = 0.1;
 
   // Threads of the solver; 0: one for each core. Does not change the result but for rounding.
   int num_threads = 0;
@@ -75,7 +75,7 @@ void VisitFields(CalibrationOptions& options, Visitor&& visit) {
   visit("height_sigma", options.height_sigma);
   visit("max_focal_sigma_percent", options.max_focal_sigma_percent);
   visit("max_principal_sigma_px", options.max_principal_sigma_px);
-  visit("max_projection_sigma_px", options.max_projection_sigma_px);
+  visit("max_distortion_sigma_px", options.max_distortion_sigma_px);
   visit("num_threads", options.num_threads);
 }
 

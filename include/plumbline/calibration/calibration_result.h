@@ -32,9 +32,9 @@ struct LensEstimate {
   LensParameters<double> sigma{};  // Standard deviations; 0 for what was held.
   double focal_sigma_percent = 0.0;
   double principal_sigma_px = 0.0;  // The larger one of the two.
-  // Standard deviation of where a ray meets the image, RMS over the image, after the turn of the
-  // camera that takes most of it away.
-  double projection_sigma_px = 0.0;
+  // Standard deviation of where a ray meets the image, RMS over the image, less what another focal
+  // length, principal point and turn of the camera would take away.
+  double distortion_sigma_px = 0.0;
 };
 
 struct CalibratedPhoto {
