@@ -27,7 +27,7 @@ struct Board {
   int height_px = 0;
   int num_photos = 0;
   int num_markers = 0;
-  std::vector<MarkerView> views;          // By photo, then by marker.
+  std::vector<MarkerView> views;         // By photo, then by marker.
   std::vector<Eigen::Vector2d> printed;  // Centres on a fixed grid, y up; empty if strewn.
 };
 

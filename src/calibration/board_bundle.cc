@@ -187,11 +187,11 @@ class Bundle {
                                  sheet_);
     }
     if (!board_.printed.empty()) {
-      problem_->AddResidualBlock(new ceres::AutoDiffCostFunction<PriorCost<2>, 2, 2>(
-                                     new PriorCost<2>{{1.0, 0.0},
-                                                      {1.0 / kStretchSigma, 1.0 / kShearSigma}}),
-                                 nullptr,
-                                 sheet_);
+      problem_->AddResidualBlock(
+          new ceres::AutoDiffCostFunction<PriorCost<2>, 2, 2>(
+              new PriorCost<2>{{1.0, 0.0}, {1.0 / kStretchSigma, 1.0 / kShearSigma}}),
+          nullptr,
+          sheet_);
     }
     if (settings_.is_flat) return;
     for (Eigen::Vector3d& center : centers_) {

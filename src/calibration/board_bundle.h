@@ -14,11 +14,11 @@ struct BoardBundleSettings {
   // Of the lens. With square pixels fy is fx and its own entry says nothing.
   std::array<bool, kNumLensParameters> is_free{};
   bool has_square_pixels = true;
-  bool is_flat = false;             // All heights 0.
-  double height_sigma = 0.02;       // [marker diameters]
-  double noise_factor = 1.0;        // On the standard deviations of all centres.
-  double robust_width = 2.5;        // [standard deviations]
-  double prior_focal_px = 1000.0;   // Tells the field for which distortion is held small.
+  bool is_flat = false;            // All heights 0.
+  double height_sigma = 0.02;      // [marker diameters]
+  double noise_factor = 1.0;       // On the standard deviations of all centres.
+  double robust_width = 2.5;       // [standard deviations]
+  double prior_focal_px = 1000.0;  // Tells the field for which distortion is held small.
   int max_iterations = 50;
   int num_threads = 1;
 };

@@ -96,7 +96,8 @@ class Starter {
     for (const MarkerView& view : board.views) {
       if (!view.is_wrong) views_[static_cast<std::size_t>(view.photo_idx)].push_back(view);
     }
-    for (const auto& views : views_) sheets_.push_back(FindSheetPose(views, focal_px, principal_px));
+    for (const auto& views : views_)
+      sheets_.push_back(FindSheetPose(views, focal_px, principal_px));
     start_.state.cams_from_plane.resize(views_.size());
     start_.has_pose.assign(views_.size(), 0);
     seen_.resize(static_cast<std::size_t>(board.num_markers));
@@ -198,7 +199,7 @@ class Starter {
   BoardStart start_;
   std::vector<std::vector<MarkerView>> views_;  // Of each photo.
   std::vector<std::optional<SheetPose>> sheets_;
-  std::vector<std::vector<Eigen::Vector2d>> seen_;        // Of each marker, in the plane.
+  std::vector<std::vector<Eigen::Vector2d>> seen_;       // Of each marker, in the plane.
   std::vector<std::optional<Eigen::Vector2d>> centers_;  // As far as known.
 };
 

@@ -41,18 +41,12 @@ std::vector<std::string> CalibrationOptions::Problems() const {
                    max_residual_sigmas);
   problems.Require(
       height_sigma > 0.0 && height_sigma <= 1.0, "height_sigma", "in (0, 1]", height_sigma);
-  problems.Require(max_focal_sigma_percent > 0.0,
-                   "max_focal_sigma_percent",
-                   "above 0",
-                   max_focal_sigma_percent);
-  problems.Require(max_principal_sigma_px > 0.0,
-                   "max_principal_sigma_px",
-                   "above 0",
-                   max_principal_sigma_px);
-  problems.Require(max_distortion_sigma_px > 0.0,
-                   "max_distortion_sigma_px",
-                   "above 0",
-                   max_distortion_sigma_px);
+  problems.Require(
+      max_focal_sigma_percent > 0.0, "max_focal_sigma_percent", "above 0", max_focal_sigma_percent);
+  problems.Require(
+      max_principal_sigma_px > 0.0, "max_principal_sigma_px", "above 0", max_principal_sigma_px);
+  problems.Require(
+      max_distortion_sigma_px > 0.0, "max_distortion_sigma_px", "above 0", max_distortion_sigma_px);
   problems.Require(num_threads >= 0, "num_threads", "at least 0", num_threads);
   return problems.Take();
 }

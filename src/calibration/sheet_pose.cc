@@ -32,8 +32,7 @@ std::optional<Eigen::Matrix2d> GramInPlane(const RayCircle& circle, const Eigen:
   if (!(along > 1e-3)) return std::nullopt;
   // P = ray / (normal . ray), derived by the ray.
   const Eigen::Matrix<double, 3, 2> radii =
-      circle.radii / along -
-      circle.ray * (normal.transpose() * circle.radii) / (along * along);
+      circle.radii / along - circle.ray * (normal.transpose() * circle.radii) / (along * along);
   return Eigen::Matrix2d(radii.transpose() * radii);
 }
 
@@ -84,8 +83,8 @@ Fit FitSlope(const std::vector<RayCircle>& circles, const Eigen::Vector2d& start
       jacobian.col(k) = (*moved - *misfits) / kStep;
     }
     const Eigen::VectorXd weights = Weights(*misfits);
-    const Eigen::Matrix2d normal = jacobian.transpose() * weights.asDiagonal() * jacobian +
-                                   1e-9 * Eigen::Matrix2d::Identity();
+    const Eigen::Matrix2d normal =
+        jacobian.transpose() * weights.asDiagonal() * jacobian + 1e-9 * Eigen::Matrix2d::Identity();
     Eigen::Vector2d step =
         -normal.ldlt().solve(jacobian.transpose() * weights.asDiagonal() * *misfits);
     bool improved = false;

@@ -21,8 +21,9 @@ namespace plumb {
 // The error function over the plausible focal lengths, evaluated one by one.
 struct FocalSearch {
   std::vector<double> focal_px;  // Ascending.
-  // RMS of what the best planar reconstruction with this focal length leaves [px].
-  std::vector<double> error_px;
+  // What the best planar reconstruction with this focal length leaves, robust RMS [standard
+  // deviations of a centre].
+  std::vector<double> error;
   double best_focal_px = 0.0;  // Of the smallest error.
 };
 
@@ -77,12 +78,14 @@ struct CalibrationFinding {
     kSameName,       // A photo given twice.
     kMarkerTwice,    // A marker twice in one photo: two sheets with the same IDs, or a mirror.
     kUnknownMarker,  // Not of the fixed grid.
+    kWrongView,      // A marker fits nothing in single photos: partly hidden, mirrored, blurred.
     kMoved,          // A marker lies elsewhere in some photos.
     kOffPlane,       // A marker stands off the plane: the sheet is bent, or it is no floor.
     kStretched,      // The printer's scale is not the same along and across.
     kBadPhoto,       // Most markers of a photo fit nothing.
     kSameSpot,       // The camera was not moved.
     kFocalUnclear,   // The error function has no clear minimum.
+    kFoldedLens,     // The distortion found is not one-to-one within the image.
     kNoise           // Residuals far larger than the detector's covariances.
   };
   Kind kind = Kind::kTooFewPhotos;
