@@ -47,6 +47,13 @@ class Bundle {
       const Eigen::Vector3d& t = cam_from_plane.translation;
       poses_.push_back({0.0, 0.0, 0.0, t.x(), t.y(), t.z()});
     }
+    is_pose_used_.assign(poses_.size(), 0);
+    is_center_used_.assign(centers_.size(), 0);
+    for (const MarkerView& view : board.views) {
+      if (view.is_wrong) continue;
+      is_pose_used_[static_cast<std::size_t>(view.photo_idx)] = 1;
+      is_center_used_[static_cast<std::size_t>(view.marker_idx)] = 1;
+    }
     ceres::Problem::Options options;
     options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     problem_ = std::make_unique<ceres::Problem>(options);
@@ -66,11 +73,13 @@ class Bundle {
     options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
     // Poses do not meet one another in a residual, nor do centres: the larger set is eliminated.
     const int pose_group = 6 * poses_.size() > 3 * centers_.size() ? 0 : 1;
-    for (PoseBlock& pose : poses_) {
-      options.linear_solver_ordering->AddElementToGroup(pose.data(), pose_group);
+    for (std::size_t i = 0; i < poses_.size(); ++i) {
+      if (is_pose_used_[i] == 0) continue;
+      options.linear_solver_ordering->AddElementToGroup(poses_[i].data(), pose_group);
     }
-    for (Eigen::Vector3d& center : centers_) {
-      options.linear_solver_ordering->AddElementToGroup(center.data(), 1 - pose_group);
+    for (std::size_t i = 0; i < centers_.size(); ++i) {
+      if (is_center_used_[i] == 0) continue;
+      options.linear_solver_ordering->AddElementToGroup(centers_[i].data(), 1 - pose_group);
     }
     options.linear_solver_ordering->AddElementToGroup(lens_.data(), 1);
     if (!board_.printed.empty()) options.linear_solver_ordering->AddElementToGroup(sheet_, 1);
@@ -108,8 +117,12 @@ class Bundle {
     } else if (!held.empty()) {
       problem_->SetManifold(lens_.data(), new ceres::SubsetManifold(kNumLensParameters, held));
     }
-    for (PoseBlock& pose : poses_) problem_->AddParameterBlock(pose.data(), 6);
-    for (Eigen::Vector3d& center : centers_) problem_->AddParameterBlock(center.data(), 3);
+    for (std::size_t i = 0; i < poses_.size(); ++i) {
+      if (is_pose_used_[i] != 0) problem_->AddParameterBlock(poses_[i].data(), 6);
+    }
+    for (std::size_t i = 0; i < centers_.size(); ++i) {
+      if (is_center_used_[i] != 0) problem_->AddParameterBlock(centers_[i].data(), 3);
+    }
     if (!board_.printed.empty()) problem_->AddParameterBlock(sheet_, 2);
     HoldPlane();
   }
@@ -117,16 +130,21 @@ class Bundle {
   // Where markers are strewn, two that are far apart hold place, direction and scale. The heights'
   // priors hold the rest.
   void HoldPlane() {
-    std::array<std::size_t, 2> anchors{0, 0};
+    std::vector<std::size_t> used;
     for (std::size_t i = 0; i < centers_.size(); ++i) {
-      const auto distance = [&](std::size_t a, std::size_t b) {
-        return (centers_[a] - centers_[b]).squaredNorm();
-      };
-      for (std::size_t k = 0; k < i; ++k) {
-        if (distance(i, k) > distance(anchors[0], anchors[1])) anchors = {k, i};
+      if (is_center_used_[i] != 0) used.push_back(i);
+    }
+    std::array<std::size_t, 2> anchors{0, 0};
+    double farthest = 0.0;
+    for (const std::size_t i : used) {
+      for (const std::size_t k : used) {
+        const double distance = (centers_[i] - centers_[k]).squaredNorm();
+        if (distance <= farthest) continue;
+        farthest = distance;
+        anchors = {i, k};
       }
     }
-    for (std::size_t i = 0; i < centers_.size(); ++i) {
+    for (const std::size_t i : used) {
       const bool is_anchor = board_.printed.empty() && (i == anchors[0] || i == anchors[1]);
       double* center = centers_[i].data();
       if (is_anchor && settings_.is_flat) {
@@ -181,6 +199,7 @@ class Bundle {
   void AddCenterPriors() {
     using Printed = ceres::AutoDiffCostFunction<PrintedCost, 2, 3, 2>;
     for (std::size_t i = 0; i < board_.printed.size(); ++i) {
+      if (is_center_used_[i] == 0) continue;
       problem_->AddResidualBlock(new Printed(new PrintedCost{board_.printed[i], 1.0 / kPrintSigma}),
                                  nullptr,
                                  centers_[i].data(),
@@ -194,12 +213,13 @@ class Bundle {
           sheet_);
     }
     if (settings_.is_flat) return;
-    for (Eigen::Vector3d& center : centers_) {
+    for (std::size_t i = 0; i < centers_.size(); ++i) {
+      if (is_center_used_[i] == 0) continue;
       problem_->AddResidualBlock(
           new ceres::AutoDiffCostFunction<PriorCost<3>, 3, 3>(new PriorCost<3>{
               Eigen::Vector3d::Zero(), Eigen::Vector3d(0.0, 0.0, 1.0 / settings_.height_sigma)}),
           nullptr,
-          center.data());
+          centers_[i].data());
     }
   }
 
@@ -211,6 +231,8 @@ class Bundle {
   std::vector<PoseBlock> poses_;
   std::vector<Eigen::Vector3d> centers_;
   double sheet_[2];
+  std::vector<char> is_pose_used_;
+  std::vector<char> is_center_used_;
   std::unique_ptr<ceres::Problem> problem_;
 };
 
@@ -246,6 +268,7 @@ Eigen::MatrixXd Bundle::Covariance() {
     }
   }
   for (std::size_t i = 0; i < centers_.size(); ++i) {
+    if (is_center_used_[i] == 0) continue;
     if (problem_->IsParameterBlockConstant(centers_[i].data())) continue;
     options.parameter_blocks.push_back(centers_[i].data());
     for (const int place : TangentPlaces(*problem_, centers_[i].data(), 3)) {
@@ -253,7 +276,9 @@ Eigen::MatrixXd Bundle::Covariance() {
       ++column;
     }
   }
-  for (PoseBlock& pose : poses_) options.parameter_blocks.push_back(pose.data());
+  for (std::size_t i = 0; i < poses_.size(); ++i) {
+    if (is_pose_used_[i] != 0) options.parameter_blocks.push_back(poses_[i].data());
+  }
   if (!board_.printed.empty()) options.parameter_blocks.push_back(sheet_);
   ceres::CRSMatrix jacobian;
   if (!problem_->Evaluate(options, nullptr, nullptr, nullptr, &jacobian)) return {};

@@ -3,6 +3,8 @@
 #include "plumbline/calibration/calibration_options.h"
 
 #include "plumbline/common/options.h"
+#include "plumbline/marker/codebook.h"
+#include "plumbline/marker/marker_sheet.h"
 
 namespace plumb {
 
@@ -12,7 +14,11 @@ std::vector<std::string> CalibrationOptions::Problems() const {
                    "fixed_grid",
                    "a4, a3 or empty",
                    fixed_grid);
-  problems.Require(first_id >= 0 && first_id <= 1'000'000, "first_id", "at least 0", first_id);
+  const int last_id = MarkerCodebook::Get().size() - kGridSide * kGridSide;
+  problems.Require(first_id >= 0 && first_id <= last_id,
+                   "first_id",
+                   ("in [0, " + std::to_string(last_id) + "]").c_str(),
+                   first_id);
   problems.Require(marker_diameter_m >= 0.0 && marker_diameter_m <= 100.0,
                    "marker_diameter_m",
                    "in [0, 100]",

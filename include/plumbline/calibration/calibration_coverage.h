@@ -30,15 +30,14 @@ struct CalibrationCoverage {
   // Share of the cells that a marker's face has touched at least once, 0..1.
   double image_share = 0.0;
 
-  // By the median diameter of the photo's markers, in steps of the square root of 2 about the
-  // median of all photos: near to far.
+  // By the median diameter of the photo's markers against that of all photos: near to far.
   std::vector<CoverageBar> distance;
   double distance_ratio = 1.0;  // Farthest over nearest.
   // By the median axis ratio of the photo's ellipses: the tilt of the plane to the image.
   std::vector<CoverageBar> tilt;
   // Which side of the image the plane comes nearer on, of the photos tilted by 15 deg or more.
   std::vector<CoverageBar> direction;
-  // How the camera was turned about its axis, against the first photo, in quarters.
+  // How the camera was turned about its axis against the first photo.
   std::vector<CoverageBar> turn;
 
   int CentersInCell(int col, int row) const {
@@ -46,7 +45,7 @@ struct CalibrationCoverage {
   }
 };
 
-// Of the photos of the first one's size. Deterministic; thread-safe.
+// Of the photos of the size that most have. Deterministic; thread-safe.
 CalibrationCoverage MeasureCoverage(const std::vector<CalibrationPhoto>& photos);
 
 }  // namespace plumb
