@@ -68,17 +68,16 @@ CalibratorRos::CalibratorRos(const ros::NodeHandle& handle, const CalibratorRosO
   if (!options_.photos_folder.empty()) {
     watcher_ = std::make_unique<FolderWatcher>(
         options_.photos_folder,
-        WatchOptions{std::chrono::milliseconds(
-                         static_cast<std::int64_t>(1000.0 * options_.untouched_for_s)),
-                     options_.max_subfolder_depth,
-                     options_.output_folder});
+        WatchOptions{
+            std::chrono::milliseconds(static_cast<std::int64_t>(1000.0 * options_.untouched_for_s)),
+            options_.max_subfolder_depth,
+            options_.output_folder});
     has_folder_ = watcher_->is_watching();
   }
   if (!options_.image_topic.empty()) {
-    ros::NodeHandle own(handle);
+    image_topic_ = ros::names::resolve(options_.image_topic);  // A handle takes no "~".
     image_subscriber_ =
-        own.subscribe(options_.image_topic, kImageQueue, &CalibratorRos::OnImage, this);
-    image_topic_ = image_subscriber_.getTopic();
+        private_handle_.subscribe(image_topic_, kImageQueue, &CalibratorRos::OnImage, this);
   }
   last_image_s_ = SteadySeconds();
   Advertise();
@@ -138,8 +137,8 @@ Outcome CalibratorRos::Commit() {
     const std::string service = SetCameraInfoService();
     if (service.empty()) {
       return {Outcome::Kind::kFailed,
-              "There is no camera to send it to: the photos come from a folder. Save it, or name "
-              "the driver's service in set_camera_info_service."};
+              "There is no camera to send it to: no image came from a driver. Save it, or name the "
+              "driver's service in set_camera_info_service."};
     }
     return SendTo(service, camera);
   });
@@ -235,14 +234,14 @@ void CalibratorRos::OnImage(const topic_tools::ShapeShifter::ConstPtr& msg) {
 SourceNote CalibratorRos::FolderNote() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!has_folder_) {
-    return {options_.photos_folder + ": this folder is not there. Put the card in, or correct "
-                                     "photos_folder; it goes on by itself",
+    return {options_.photos_folder +
+                ": this folder is not there. Put the card in, or correct "
+                "photos_folder; it goes on by itself",
             true};
   }
   if (!file_trouble_.empty()) return {file_trouble_, true};
   return {options_.photos_folder + ": " +
-              (num_files_ == 0 ? "no photo yet"
-                               : CountOf(static_cast<int>(num_files_), "photo")),
+              (num_files_ == 0 ? "no photo yet" : CountOf(static_cast<int>(num_files_), "photo")),
           false};
 }
 
@@ -253,15 +252,21 @@ SourceNote CalibratorRos::TopicNote() const {
   if (num_images_ == 0) {
     return {image_topic_ + ": no image yet" +
                 (is_silent ? ". Start the camera or the bag, or correct image_topic" : ""),
-            is_silent && !watcher_};
+            is_silent};
   }
   return {image_topic_ + (is_silent ? ": the images have stopped" : ": images come in"), is_silent};
+}
+
+// The topic that a folder's photos are accompanied by may never be meant.
+bool CalibratorRos::IsTopicShown() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return !image_topic_.empty() && (options_.photos_folder.empty() || num_images_ > 0);
 }
 
 void CalibratorRos::OnTimer() {
   std::vector<SourceNote> sources;
   if (!options_.photos_folder.empty()) sources.push_back(FolderNote());
-  if (!image_topic_.empty()) sources.push_back(TopicNote());
+  if (IsTopicShown()) sources.push_back(TopicNote());
   calibrator_.NoteSources(std::move(sources));
   diagnostics_.update();
   const CalibratorState state = calibrator_.state();

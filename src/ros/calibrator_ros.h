@@ -63,6 +63,7 @@ class CalibratorRos {
   void OnTimer();
   SourceNote FolderNote() const;
   SourceNote TopicNote() const;
+  bool IsTopicShown() const;
   void Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   ros::NodeHandle private_handle_;

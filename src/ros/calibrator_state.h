@@ -24,8 +24,8 @@ struct SeenMarker {
 // The image that was looked at last.
 struct CalibratorView {
   std::string name;
-  cv::Mat gray;             // Reduced, CV_8UC1; empty if it could not be read.
-  int width_px = 0;         // Of the full image.
+  cv::Mat gray;      // Reduced, CV_8UC1; empty if it could not be read.
+  int width_px = 0;  // Of the full image.
   int height_px = 0;
   bool is_taken = false;
   bool is_problem = false;  // It could not be read or searched.
@@ -50,16 +50,16 @@ struct SourceNote {
 struct CalibratorState {
   std::uint64_t revision = 0;  // Grows with every change.
   CalibrationProgress progress;
-  std::shared_ptr<const CalibratorView> view;        // Null before the first image.
-  std::shared_ptr<const CalibrationResult> result;   // Of Calibrate; null before.
-  bool is_result_current = false;  // Every photo taken is in it.
-  bool is_saved = false;           // The result.
-  bool is_committed = false;       // Likewise.
-  std::string busy;                // What is being done; empty if nothing.
-  Outcome outcome;                 // Of what was asked for last; empty before.
+  std::shared_ptr<const CalibratorView> view;       // Null before the first image.
+  std::shared_ptr<const CalibrationResult> result;  // Of Calibrate; null before.
+  bool is_result_current = false;                   // Every photo taken is in it.
+  bool is_saved = false;                            // The result.
+  bool is_committed = false;                        // Likewise.
+  std::string busy;                                 // What is being done; empty if nothing.
+  Outcome outcome;                                  // Of what was asked for last; empty before.
   std::vector<SourceNote> sources;
-  std::size_t num_waiting = 0;     // Images that wait to be looked at.
-  std::size_t num_dropped = 0;     // Images of a video that came too fast.
+  std::size_t num_waiting = 0;  // Images that wait to be looked at.
+  std::size_t num_dropped = 0;  // Images of a video that came too fast.
   std::size_t num_unreadable = 0;
 };
 

@@ -12,9 +12,8 @@ namespace plumb::ros_adapter {
 namespace {
 
 int NumUsed(const CalibrationResult& result) {
-  return static_cast<int>(std::count_if(result.photos.begin(),
-                                        result.photos.end(),
-                                        [](const auto& photo) { return photo.is_used; }));
+  return static_cast<int>(std::count_if(
+      result.photos.begin(), result.photos.end(), [](const auto& photo) { return photo.is_used; }));
 }
 
 }  // namespace

@@ -37,7 +37,9 @@ std::optional<double> GrayAt(const cv::Mat& gray, const Eigen::Vector2d& pixel) 
   const int y = static_cast<int>(y0);
   const double right = pixel.x() - x0;
   const double below = pixel.y() - y0;
-  const auto at = [&gray](int row, int col) { return static_cast<double>(gray.at<std::uint8_t>(row, col)); };
+  const auto at = [&gray](int row, int col) {
+    return static_cast<double>(gray.at<std::uint8_t>(row, col));
+  };
   return (1.0 - below) * ((1.0 - right) * at(y, x) + right * at(y, x + 1)) +
          below * ((1.0 - right) * at(y + 1, x) + right * at(y + 1, x + 1));
 }

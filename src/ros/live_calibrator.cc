@@ -71,8 +71,8 @@ void LiveCalibrator::NoteSources(std::vector<SourceNote> sources) {
   const auto is_same = [](const SourceNote& a, const SourceNote& b) {
     return a.text == b.text && a.is_trouble == b.is_trouble;
   };
-  if (std::equal(sources.begin(), sources.end(), state_.sources.begin(), state_.sources.end(),
-                 is_same)) {
+  if (std::equal(
+          sources.begin(), sources.end(), state_.sources.begin(), state_.sources.end(), is_same)) {
     return;
   }
   state_.sources = std::move(sources);
@@ -113,8 +113,8 @@ void LiveCalibrator::LookAt(const cv::Mat& gray, const Arrived& arrived, Calibra
   std::vector<MarkerDetection> markers = DetectMarkers(options_.detector, gray);
   view->markers = Unused(markers);
   if (arrived.name.empty()) {
-    view->note = choice_.Judge(
-        {arrived.stamp_s, gray.cols, gray.rows, markers, EdgeBlur_px(gray, markers)});
+    view->note =
+        choice_.Judge({arrived.stamp_s, gray.cols, gray.rows, markers, EdgeBlur_px(gray, markers)});
     if (!view->note.empty()) return;
     view->name = "view " + std::to_string(++num_views_);
   } else if (markers.empty()) {
@@ -176,9 +176,8 @@ Outcome LiveCalibrator::Do(const std::string& busy, const std::function<Outcome(
 
 Outcome LiveCalibrator::Calibrate() {
   const int num_photos = state().progress.coverage.num_photos;
-  return Do("Calibrating " + CountOf(num_photos, "photo") + " ...", [this] {
-    return CalibrateNow();
-  });
+  return Do("Calibrating " + CountOf(num_photos, "photo") + " ...",
+            [this] { return CalibrateNow(); });
 }
 
 Outcome LiveCalibrator::CalibrateNow() {

@@ -65,9 +65,7 @@ class LiveCalibrator {
   // Of the looking thread.
   void Look(const Arrived& arrived);
   void LookAt(const cv::Mat& gray, const Arrived& arrived, CalibratorView* view);
-  void Collect(const cv::Mat& gray,
-               std::vector<MarkerDetection> markers,
-               CalibratorView* view);
+  void Collect(const cv::Mat& gray, std::vector<MarkerDetection> markers, CalibratorView* view);
   bool IsCounted(int id) const;
   void Show(const CalibratorView& view);
 

@@ -42,8 +42,7 @@ std::vector<std::string> ViewChoiceOptions::Problems() const {
   ProblemList problems;
   problems.Require(min_markers >= 4, "min_markers", "at least 4", min_markers);
   problems.Require(max_blur_px > 0.0, "max_blur_px", "positive", max_blur_px);
-  problems.Require(
-      max_speed_widths_s > 0.0, "max_speed_widths_s", "positive", max_speed_widths_s);
+  problems.Require(max_speed_widths_s > 0.0, "max_speed_widths_s", "positive", max_speed_widths_s);
   problems.Require(max_video_gap_s > 0.0, "max_video_gap_s", "positive", max_video_gap_s);
   problems.Require(min_shift_widths > 0.0, "min_shift_widths", "positive", min_shift_widths);
   problems.Require(min_shape_change > 0.0, "min_shape_change", "positive", min_shape_change);
