@@ -42,8 +42,8 @@ struct CalibratedPhoto {
   std::string name;
   bool is_used = false;
   Rigid3 cam_from_plane;  // Only if used, as what follows.
-  int num_markers = 0;    // That count.
-  int num_wrong = 0;      // Of them: residual beyond CalibrationOptions::max_residual_sigmas.
+  int num_markers = 0;    // That it shows and others show too; also if not used, as num_wrong.
+  int num_wrong = 0;      // Of them, that do not count: they do not fit, or their marker does not.
   double rms_px = 0.0;    // Of those that are not wrong.
   double tilt_deg = 0.0;  // Between the plane's normal and the optical axis.
   double distance = 0.0;  // From the camera to the middle of its markers.
