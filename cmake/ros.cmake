@@ -102,6 +102,16 @@ if(CATKIN_ENABLE_TESTING)
                         GTest::gmock GTest::gtest plumb_warnings)
   add_test(NAME calibrator_window_test COMMAND calibrator_window_test)
 
+  # Photos for calibrate.test.
+  add_executable(make_calibration_photos EXCLUDE_FROM_ALL
+                 ${PROJECT_SOURCE_DIR}/test/ros/make_calibration_photos.cc)
+  add_dependencies(tests make_calibration_photos)
+  set_target_properties(make_calibration_photos PROPERTIES RUNTIME_OUTPUT_DIRECTORY
+                        ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
+  target_include_directories(make_calibration_photos PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(make_calibration_photos PRIVATE plumb_marker plumb_warnings
+                        opencv_imgcodecs)
+
   file(GLOB rostests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/ros/*.test)
   foreach(rostest ${rostests})
     add_rostest(${rostest} DEPENDENCIES ${programs})

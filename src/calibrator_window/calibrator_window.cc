@@ -47,6 +47,18 @@ QColor ColorOf(Outcome::Kind kind) {
   return kInk;
 }
 
+bool IsSaidByAdvice(const CalibrationFinding& finding, const std::string& advice) {
+  return finding.kind == CalibrationFinding::Kind::kTooFewPhotos || finding.text == advice;
+}
+
+// What to press once the photos are good enough.
+std::string NextStep(const CalibratorState& state) {
+  if (EstimateToShow(state).verdict != CalibrationVerdict::kGood) return {};
+  if (!state.is_result_current) return " Press Calibrate.";
+  if (!state.is_saved) return " Press Save.";
+  return {};
+}
+
 // A button that does nothing now is flat and grey; the next step is filled.
 void PaintButton(QPushButton* button, bool is_next) {
   const QColor ground = !button->isEnabled() ? kGround : (is_next ? kActionColor : kPaper);
@@ -143,12 +155,13 @@ void CalibratorWindow::Refresh() {
 void CalibratorWindow::ShowAdvice(const CalibratorState& state) {
   const ShownEstimate shown = EstimateToShow(state);
   const bool is_good = shown.verdict == CalibrationVerdict::kGood;
-  advice_->setText(QString::fromStdString(*shown.advice));
+  advice_->setText(QString::fromStdString(*shown.advice + NextStep(state)));
   Paint(advice_, is_good ? kGoodColor : kInk, kPaper, "padding: 8px;");
   QStringList lines;
   bool is_serious = false;
   for (const CalibrationFinding& finding : *shown.findings) {
     if (lines.size() == kMaxFindings) break;
+    if (IsSaidByAdvice(finding, *shown.advice)) continue;
     lines << QString::fromStdString(finding.text);
     is_serious |= finding.is_serious;
   }

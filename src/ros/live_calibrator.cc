@@ -93,14 +93,14 @@ void LiveCalibrator::Look(const Arrived& arrived) {
   view.name = arrived.name.empty() ? "live" : arrived.name;
   try {
     const GrayPhoto photo = arrived.decode();
+    view.is_problem = !photo.problem.empty();
     view.note = photo.problem;
-    if (photo.problem.empty()) LookAt(photo.gray, arrived, &view);
+    if (!view.is_problem) LookAt(photo.gray, arrived, &view);
   } catch (const std::exception& error) {  // One photo must not end the others.
-    view.note = error.what();
+    view.is_problem = true;
     view.is_taken = false;
+    view.note = error.what();
   }
-  view.is_problem = !view.is_taken && view.markers.empty() && view.note != kNoMarkers &&
-                    (view.gray.empty() || !arrived.name.empty());
   if (view.is_problem) Update([&] { ++state_.num_unreadable; });
   Show(view);
   if (on_view_ && (view.is_taken || view.is_problem || !arrived.name.empty())) on_view_(view);
