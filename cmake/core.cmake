@@ -51,7 +51,7 @@ plumb_module(calibration plumb_marker Ceres::ceres nlohmann_json::nlohmann_json 
 plumb_module(map plumb_image PkgConfig::SQLITE3 nlohmann_json::nlohmann_json)
 plumb_module(matching plumb_map opencv_core)
 plumb_module(sfm plumb_matching Ceres::ceres)
-plumb_module(simulation plumb_image embree PkgConfig::PROJ)
+plumb_module(simulation plumb_marker embree PkgConfig::PROJ)
 # A vectorised square root sets no errno.
 set_source_files_properties(src/simulation/develop.cc PROPERTIES COMPILE_OPTIONS -fno-math-errno)
 # All processors shall render the same bits: nothing is contracted to fused operations.
