@@ -63,7 +63,7 @@ target_link_libraries(plumb_evaluation PRIVATE CGAL::CGAL)
 target_include_directories(plumb_evaluation SYSTEM PRIVATE ${NANOFLANN_INCLUDE_DIR})
 
 # The command-line program; all but its main is a library, so that it can be tested.
-plumb_module(tools plumb_evaluation plumb_marker plumb_simulation yaml-cpp CLI11::CLI11)
+plumb_module(tools plumb_evaluation plumb_calibration plumb_simulation yaml-cpp CLI11::CLI11)
 target_compile_definitions(plumb_tools PRIVATE
                            PLUMBLINE_SCENARIOS="${PROJECT_SOURCE_DIR}/config/scenarios")
 file(STRINGS ${PROJECT_SOURCE_DIR}/package.xml version_line REGEX "<version>")
