@@ -51,7 +51,7 @@ plumb_module(calibration plumb_marker Ceres::ceres nlohmann_json::nlohmann_json 
 plumb_module(map plumb_image PkgConfig::SQLITE3 nlohmann_json::nlohmann_json)
 plumb_module(matching plumb_map opencv_core)
 plumb_module(sfm plumb_matching Ceres::ceres)
-plumb_module(simulation plumb_image embree PkgConfig::PROJ)
+plumb_module(simulation plumb_marker embree PkgConfig::PROJ)
 # A vectorised square root sets no errno.
 set_source_files_properties(src/simulation/develop.cc PROPERTIES COMPILE_OPTIONS -fno-math-errno)
 # All processors shall render the same bits: nothing is contracted to fused operations.
@@ -63,7 +63,7 @@ target_link_libraries(plumb_evaluation PRIVATE CGAL::CGAL)
 target_include_directories(plumb_evaluation SYSTEM PRIVATE ${NANOFLANN_INCLUDE_DIR})
 
 # The command-line program; all but its main is a library, so that it can be tested.
-plumb_module(tools plumb_evaluation plumb_marker plumb_simulation yaml-cpp CLI11::CLI11)
+plumb_module(tools plumb_evaluation plumb_calibration plumb_simulation yaml-cpp CLI11::CLI11)
 target_compile_definitions(plumb_tools PRIVATE
                            PLUMBLINE_SCENARIOS="${PROJECT_SOURCE_DIR}/config/scenarios")
 file(STRINGS ${PROJECT_SOURCE_DIR}/package.xml version_line REGEX "<version>")
@@ -114,5 +114,8 @@ if(benchmark_FOUND AND APRILTAG_FOUND AND TARGET opencv_aruco)
   endforeach()
   # The marker detector is measured beside two others.
   target_link_libraries(marker_benchmark PRIVATE plumb_marker opencv_aruco PkgConfig::APRILTAG
+                        nlohmann_json::nlohmann_json)
+  # The calibration beside OpenCV's.
+  target_link_libraries(calibration_benchmark PRIVATE plumb_calibration
                         nlohmann_json::nlohmann_json)
 endif()

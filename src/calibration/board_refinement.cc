@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <stdexcept>
 
 #include "calibration/board_bundle.h"
@@ -66,7 +67,7 @@ class Refiner {
     // Terms that the photos do not tell may fold the image; the highest go first.
     for (const int highest : {kK3, kK2}) {
       if (camera || !report.is_usable) break;
-      for (const int k : {kK4, kK5, kK6, highest}) Hold(k);
+      for (const int k : std::initializer_list<int>{kK4, kK5, kK6, highest}) Hold(k);
       report = SolveBoard(board_, settings_, &state_);
       camera = MakeCamera();
     }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plumbline/marker/marker_picture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -16,7 +17,27 @@ constexpr int kMinSidePx = 8;
 constexpr int kMaxSidePx = 8192;
 constexpr int kSamplesPerAxis = 8;
 
+// From the nearest circle or border of two cells, in outer radii.
+double DistanceToEdge(const Eigen::Vector2d& point_in_marker) {
+  const double radius = point_in_marker.norm();
+  double distance = std::abs(radius - 1.0);
+  for (const double edge : {kDiscRadius, kStripeInnerRadius, kStripeOuterRadius}) {
+    distance = std::min(distance, std::abs(radius - edge));
+  }
+  const double cells =
+      std::atan2(point_in_marker.y(), point_in_marker.x()) / (2.0 * M_PI) * kNumCodeBits;
+  const double off_border_rad = (cells - std::round(cells)) * 2.0 * M_PI / kNumCodeBits;
+  return std::min(distance, radius * std::abs(std::sin(off_border_rad)));
+}
+
 std::uint8_t MeanGray(std::uint32_t word, int x, int y, int side_px) {
+  const Eigen::Vector2d center_in_marker =
+      (Eigen::Vector2d(x + 0.5, y + 0.5) / side_px - Eigen::Vector2d::Constant(0.5)) * 2.0 *
+      kSidePerDiameter;
+  const double half_diagonal = std::sqrt(2.0) * kSidePerDiameter / side_px;
+  if (DistanceToEdge(center_in_marker) > half_diagonal) {
+    return IsWhite(word, center_in_marker) ? 255 : 0;
+  }
   int num_white = 0;
   for (int i = 0; i < kSamplesPerAxis; ++i) {
     for (int j = 0; j < kSamplesPerAxis; ++j) {

@@ -2,32 +2,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plumbline/simulation/facade.h"
 
-#include <cmath>
+#include <string>
+#include <utility>
 
 #include "plumbline/common/options.h"
+#include "plumbline/marker/codebook.h"
+#include "plumbline/marker/marker_picture.h"
 #include "simulation/facade_elements.h"
 
 namespace plumb {
 namespace {
 
 constexpr double kPlainBelowWindow_m = 1.2;  // What a storey needs beside the window's height.
-constexpr double kDiscShare = 0.3;           // Radius of the disc on a control point's plate.
-constexpr int kPictureSide_px = 512;
+constexpr int kPictureSide_px = 1024;        // 0.6 mm on a marker of 0.5 m.
+constexpr int kInk = 10;                     // Reflectances of a printed foil, 0..255.
+constexpr int kFoil = 225;
 
-// A black disc with a white centre on white: a target that shows its middle.
-PlatePicture DrawDisc(const std::string& name) {
-  PlatePicture picture;
-  picture.name = name;
-  picture.side_px = kPictureSide_px;
-  const double middle = 0.5 * (kPictureSide_px - 1);
-  for (int row = 0; row < kPictureSide_px; ++row) {
-    for (int column = 0; column < kPictureSide_px; ++column) {
-      const double radius = std::hypot(row - middle, column - middle) / kPictureSide_px;
-      const bool is_black = radius < kDiscShare && radius > 0.2 * kDiscShare;
-      picture.pixels.push_back(is_black ? 10 : 225);
+void ShowMarkers(World* world) {
+  for (Plate& plate : world->plates) {
+    PlatePicture picture;
+    picture.name = "marker_" + std::to_string(plate.id);
+    picture.side_px = kPictureSide_px;
+    picture.pixels = MarkerPicture(plate.id, kPictureSide_px);
+    for (std::uint8_t& pixel : picture.pixels) {
+      pixel = static_cast<std::uint8_t>(kInk + (kFoil - kInk) * pixel / 255);
     }
+    plate.picture = picture.name;
+    world->pictures.push_back(std::move(picture));
   }
-  return picture;
 }
 
 void BuildWall(const Site& site, const WallPlan& wall) {
@@ -85,11 +87,14 @@ std::vector<std::string> FacadeOptions::Problems() const {
   require_share("textureless_share", textureless_share);
   list.Require(num_doors >= 0, "num_doors", "at least 0", num_doors);
   list.Require(num_downpipes >= 0, "num_downpipes", "at least 0", num_downpipes);
-  list.Require(num_targets >= 0, "num_targets", "at least 0", num_targets);
-  list.Require(target_side_m >= 0.05 && target_side_m <= 2.0,
-               "target_side_m",
+  list.Require(num_targets >= 0 && num_targets <= MarkerCodebook::Get().size(),
+               "num_targets",
+               "from 0 to the number of marker IDs",
+               num_targets);
+  list.Require(target_diameter_m >= 0.05 && target_diameter_m <= 2.0,
+               "target_diameter_m",
                "from 0.05 to 2",
-               target_side_m);
+               target_diameter_m);
   list.Require(detail >= 0.0 && detail <= 3.0, "detail", "from 0 to 3", detail);
   return list.Take();
 }
@@ -108,8 +113,7 @@ World BuildFacade(const FacadeOptions& options) {
   BuildRoof(site);
   BuildGround(site);
   world.plates = PlaceTargets(plan);
-  world.pictures.push_back(DrawDisc("disc"));
-  for (Plate& plate : world.plates) plate.picture = "disc";
+  ShowMarkers(&world);
   return world;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plumbline/marker/marker_layout.h"
 #include "simulation/random_numbers.h"
 
 namespace plumb {
@@ -136,6 +137,10 @@ void PlanDownpipes(const FacadeOptions& options, WallPlan& wall) {
 double StoreyHeight(const FacadeOptions& options) {
   return (options.height_m - options.plinth_height_m - kEntablature_m) /
          (options.num_storeys - 1 + kGroundStoreyShare);
+}
+
+double TargetSide(const FacadeOptions& options) {
+  return kSidePerDiameter * options.target_diameter_m;
 }
 
 int NumBays(const FacadeOptions& options, double width_m) {

@@ -62,5 +62,7 @@ FacadePlan PlanFacade(const FacadeOptions& options);
 int NumBays(const FacadeOptions& options, double width_m);
 // Height of a storey above the ground storey.
 double StoreyHeight(const FacadeOptions& options);
+// Side of a control point's plate.
+double TargetSide(const FacadeOptions& options);
 
 }  // namespace plumb

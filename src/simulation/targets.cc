@@ -47,7 +47,7 @@ bool IsFree(const std::vector<WallRect>& obstacles, const WallRect& place) {
 // Free centres of plates on a wall.
 std::vector<Eigen::Vector2d> FreePlaces(const FacadePlan& plan, const WallPlan& wall) {
   const std::vector<WallRect> obstacles = Obstacles(plan, wall);
-  const double half = 0.5 * plan.options.target_side_m;
+  const double half = 0.5 * TargetSide(plan.options);
   std::vector<Eigen::Vector2d> places;
   for (double x = kCornerClearance_m + half; x <= wall.width_m - kCornerClearance_m - half;
        x += kGrid_m) {
@@ -82,7 +82,7 @@ std::vector<Eigen::Vector2d> StaggeredPattern(const WallPlan& wall, double heigh
 
 std::vector<Eigen::Vector2d> ChoosePlaces(const FacadePlan& plan, const WallPlan& wall, int count) {
   std::vector<Eigen::Vector2d> free = FreePlaces(plan, wall);
-  const double apart_m = 2.0 * plan.options.target_side_m;
+  const double apart_m = 2.0 * TargetSide(plan.options);
   std::vector<Eigen::Vector2d> chosen;
   for (const Eigen::Vector2d& wanted : StaggeredPattern(wall, plan.floors_m.back(), count)) {
     const auto nearest =
@@ -91,7 +91,7 @@ std::vector<Eigen::Vector2d> ChoosePlaces(const FacadePlan& plan, const WallPlan
         });
     if (nearest == free.end()) {
       throw std::invalid_argument("facade: num_targets: the walls have room for fewer plates of " +
-                                  std::to_string(plan.options.target_side_m) +
+                                  std::to_string(TargetSide(plan.options)) +
                                   " m; ask for fewer or smaller ones, or fewer ornaments");
     }
     chosen.push_back(*nearest);
@@ -109,12 +109,12 @@ std::vector<Eigen::Vector2d> ChoosePlaces(const FacadePlan& plan, const WallPlan
 Plate MakePlate(const FacadePlan& plan, const WallPlan& wall, const Eigen::Vector2d& place) {
   // On the ground storey the plates hang on the rusticated blocks.
   const bool is_on_blocks = plan.styles[0].wall == WallKind::kRusticated &&
-                            place.y() - plan.options.target_side_m < plan.floors_m[1];
+                            place.y() - TargetSide(plan.options) < plan.floors_m[1];
   const double y_m = -kMount_m - (is_on_blocks ? kRustication_m : 0.0);
   Eigen::Matrix3d wall_from_plate;  // Columns: right, down, into the wall.
   wall_from_plate << 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -1.0, 0.0;
   Plate plate;
-  plate.side_m = plan.options.target_side_m;
+  plate.side_m = TargetSide(plan.options);
   plate.world_from_plate = wall.world_from_wall *
                            Rigid3(Eigen::Quaterniond(wall_from_plate), {place.x(), y_m, place.y()});
   return plate;

@@ -26,9 +26,10 @@ struct FacadeOptions {
   int num_doors = 2;
   int num_downpipes = 3;
   double cornice_out_m = 0.7;  // How far the main cornice stands out of the wall.
-  // Plates for control points, spread over the main wall, or over all four where it is closed.
+  // Plates with coded markers for control points, their IDs from 0 on, spread over the main wall, or
+  // over all four where it is closed.
   int num_targets = 17;
-  double target_side_m = 0.5;
+  double target_diameter_m = 0.5;  // Of the marker; the plate holds its quiet zone as well.
   bool closed = false;  // All four sides have bays: a building to fly around.
   // 0: each window, sill, stone is unique; 1: all are exact copies, detail included.
   double repetition = 0.0;
@@ -56,7 +57,7 @@ void VisitFields(FacadeOptions& options, Visitor&& visit) {
   visit("num_downpipes", options.num_downpipes);
   visit("cornice_out_m", options.cornice_out_m);
   visit("num_targets", options.num_targets);
-  visit("target_side_m", options.target_side_m);
+  visit("target_diameter_m", options.target_diameter_m);
   visit("closed", options.closed);
   visit("repetition", options.repetition);
   visit("textureless_share", options.textureless_share);
