@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ros/edge_blur.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
