@@ -11,7 +11,6 @@ namespace {
 
 // With fewer, one bad photo spoils the result without being noticed.
 constexpr int kMinGoodPhotos = 6;
-constexpr double kMinImageShare = 0.7;
 constexpr double kFullZoneShare = 0.5;
 
 // Ninths of the image, row by row.
@@ -102,7 +101,7 @@ std::pair<CalibrationVerdict, std::string> Advise(const CalibrationOptions& opti
   const bool is_sure = estimate.focal_sigma_percent <= options.max_focal_sigma_percent &&
                        estimate.principal_sigma_px <= options.max_principal_sigma_px &&
                        estimate.distortion_sigma_px <= options.max_distortion_sigma_px;
-  const bool is_covered = result.coverage.image_share >= kMinImageShare;
+  const bool is_covered = result.coverage.image_share >= kWantedImageShare;
   if (is_sure && is_covered && num_used >= kMinGoodPhotos) {
     return {CalibrationVerdict::kGood,
             "Good: focal length to " + Number(estimate.focal_sigma_percent, 3) +

@@ -15,7 +15,7 @@ constexpr int kNumColumns = 2;
 bool IsFull(const CoverageBar& bar) { return bar.count >= bar.wanted; }
 
 void PaintBar(const CoverageBar& bar, const QRect& area, QPainter* painter) {
-  const int label_px = 58 * area.width() / 100;
+  const int label_px = 63 * area.width() / 100;
   const QRect label = area.adjusted(0, 0, label_px - area.width(), 0);
   const int inset_px = std::max(2, area.height() / 7);
   const QRect frame = area.adjusted(label_px + inset_px, inset_px, 0, -inset_px);
@@ -73,7 +73,8 @@ void BarsView::paintEvent(QPaintEvent*) {
     }
     num_rows += tallest + 1;
   }
-  const int row_px = height() / static_cast<int>(std::max<std::size_t>(num_rows, 1));
+  const int between_px = LetterHeight_px(*this) / 2;  // Two rows of groups.
+  const int row_px = (height() - between_px) / static_cast<int>(std::max<std::size_t>(num_rows, 1));
   const int gap_px = LetterHeight_px(*this);
   const int column_px = (width() - gap_px) / kNumColumns;
   int top_px = 0;
@@ -91,7 +92,7 @@ void BarsView::paintEvent(QPaintEvent*) {
       }
       bottom_px = std::max(bottom_px, area.bottom() + 1);
     }
-    top_px = bottom_px;
+    top_px = bottom_px + between_px;
   }
 }
 

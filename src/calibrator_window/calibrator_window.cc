@@ -90,8 +90,8 @@ CalibratorWindow::CalibratorWindow(ReadState read_state,
   left->addWidget(sources_);
   auto* right = new QVBoxLayout;
   right->setSpacing(10);
-  right->addWidget(coverage_, 5);
-  right->addWidget(bars_, 4);
+  right->addWidget(coverage_, 6);
+  right->addWidget(bars_, 5);
   right->addWidget(estimate_, 4);
   auto* middle = new QHBoxLayout;
   middle->setSpacing(14);
@@ -186,7 +186,7 @@ void CalibratorWindow::ShowSources(const CalibratorState& state) {
   if (state.num_dropped > 0) counts << QString("%1 passed over").arg(state.num_dropped);
   if (state.num_unreadable > 0) counts << QString("%1 unreadable").arg(state.num_unreadable);
   lines << counts.join(", ");
-  sources_->setText(lines.join("\n"));
+  sources_->setText(lines.join(is_trouble ? "\n" : "; "));
   Paint(sources_, kGround, is_trouble ? kBadColor : kInk);
 }
 
@@ -204,9 +204,9 @@ void CalibratorWindow::ShowButtons(const CalibratorState& state) {
   save_->setText(state.result && state.is_saved ? QString::fromUtf8("Saved ✓") : "Save");
   commit_->setText(state.result && state.is_committed ? QString::fromUtf8("Committed ✓")
                                                       : "Commit");
-  PaintButton(calibrate_, is_good);
-  PaintButton(save_, is_good && state.is_result_current);
-  PaintButton(commit_, is_good && state.is_saved);
+  PaintButton(calibrate_, is_good && !state.is_result_current);
+  PaintButton(save_, is_good && state.is_result_current && !state.is_saved);
+  PaintButton(commit_, is_good && state.is_result_current && state.is_saved);
 }
 
 void CalibratorWindow::resizeEvent(QResizeEvent* event) {

@@ -40,9 +40,15 @@ void CoverageView::paintEvent(QPaintEvent*) {
   painter.setPen(kInk);
   painter.setFont(FontOf(*this, 1.0, /*is_bold=*/true));
   painter.drawText(
-      QRect(0, 0, width(), title_px),
+      QRect(5 * title_px / 6, 0, width(), title_px),
       Qt::AlignLeft | Qt::AlignVCenter,
       QString("Image area: %1 % covered").arg(std::lround(100.0 * coverage_.image_share)));
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(QPen(kInk, 1.5));
+  painter.setBrush(coverage_.image_share >= kWantedImageShare ? kGoodColor : kDoubtfulColor);
+  painter.drawEllipse(QPointF(0.4 * title_px, 0.5 * title_px), 0.27 * title_px, 0.27 * title_px);
+  painter.setBrush(Qt::NoBrush);
+  painter.setRenderHint(QPainter::Antialiasing, false);
   const bool is_known = coverage_.width_px > 0 && coverage_.num_cols > 0;
   const QSizeF shape = is_known ? QSizeF(coverage_.width_px, coverage_.height_px) : QSizeF(3, 2);
   QRectF target(QPointF(), shape.scaled(QSizeF(width(), height() - title_px), Qt::KeepAspectRatio));

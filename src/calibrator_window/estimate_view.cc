@@ -60,7 +60,7 @@ std::vector<EstimateRow> RowsOf(const ShownEstimate& shown, const CalibrationOpt
   rows[2].bound = Bound(estimate.sigma[kCy], options.max_principal_sigma_px, 2, "px");
   rows[1].lamp = LampOf(estimate.sigma[kCx], options.max_principal_sigma_px);
   rows[2].lamp = LampOf(estimate.sigma[kCy], options.max_principal_sigma_px);
-  rows[3].value = "in the image";
+  rows[3].value = QString::fromUtf8("± %1 px").arg(Number(estimate.distortion_sigma_px, 3));
   rows[3].bound = Bound(estimate.distortion_sigma_px, options.max_distortion_sigma_px, 3, "px");
   rows[3].lamp = LampOf(estimate.distortion_sigma_px, options.max_distortion_sigma_px);
   for (const Coefficient& coefficient : kCoefficients) {

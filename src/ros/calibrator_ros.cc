@@ -195,7 +195,7 @@ void CalibratorRos::TakeFile(const std::string& name) {
   std::vector<std::uint8_t> bytes((std::istreambuf_iterator<char>(file)), {});
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    ++num_files_;
+    files_.insert(name);
     file_trouble_ = file.is_open() && !file.bad() ? "" : name + " cannot be read from the disk";
     if (!file_trouble_.empty()) {
       ROS_WARN("%s", file_trouble_.c_str());
@@ -241,7 +241,7 @@ SourceNote CalibratorRos::FolderNote() const {
   }
   if (!file_trouble_.empty()) return {file_trouble_, true};
   return {options_.photos_folder + ": " +
-              (num_files_ == 0 ? "no photo yet" : CountOf(static_cast<int>(num_files_), "photo")),
+              (files_.empty() ? "no photo yet" : CountOf(static_cast<int>(files_.size()), "photo")),
           false};
 }
 
@@ -267,7 +267,7 @@ void CalibratorRos::OnTimer() {
   std::vector<SourceNote> sources;
   if (!options_.photos_folder.empty()) sources.push_back(FolderNote());
   if (IsTopicShown()) sources.push_back(TopicNote());
-  calibrator_.NoteSources(std::move(sources));
+  calibrator_.NoteSources(std::move(sources), !SetCameraInfoService().empty());
   diagnostics_.update();
   const CalibratorState state = calibrator_.state();
   if (state.revision == published_revision_ && published_revision_ != 0) return;

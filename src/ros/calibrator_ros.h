@@ -14,6 +14,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -81,7 +82,7 @@ class CalibratorRos {
   std::size_t num_images_ = 0;
   double last_image_s_ = 0.0;
   std::string topic_trouble_;
-  std::size_t num_files_ = 0;
+  std::set<std::string> files_;  // Names; one may be written anew.
   std::string file_trouble_;
   bool has_folder_ = false;
 

@@ -33,7 +33,8 @@ bool CanSave(const CalibratorState& state) {
 }
 
 bool CanCommit(const CalibratorState& state) {
-  return state.busy.empty() && WhyNotCommit(state.result.get()).empty() && !state.is_committed;
+  return state.busy.empty() && state.has_driver && !state.is_committed &&
+         WhyNotCommit(state.result.get()).empty();
 }
 
 std::string WhyNotSave(const CalibrationResult* result) {

@@ -58,6 +58,7 @@ struct CalibratorState {
   std::string busy;                                 // What is being done; empty if nothing.
   Outcome outcome;                                  // Of what was asked for last; empty before.
   std::vector<SourceNote> sources;
+  bool has_driver = false;      // That Commit could send the calibration to.
   std::size_t num_waiting = 0;  // Images that wait to be looked at.
   std::size_t num_dropped = 0;  // Images of a video that came too fast.
   std::size_t num_unreadable = 0;

@@ -66,16 +66,18 @@ CalibratorState LiveCalibrator::state() const {
   return state;
 }
 
-void LiveCalibrator::NoteSources(std::vector<SourceNote> sources) {
-  const std::lock_guard<std::mutex> lock(mutex_);
+void LiveCalibrator::NoteSources(std::vector<SourceNote> sources, bool has_driver) {
   const auto is_same = [](const SourceNote& a, const SourceNote& b) {
     return a.text == b.text && a.is_trouble == b.is_trouble;
   };
-  if (std::equal(
-          sources.begin(), sources.end(), state_.sources.begin(), state_.sources.end(), is_same)) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::vector<SourceNote>& before = state_.sources;
+  if (state_.has_driver == has_driver &&
+      std::equal(sources.begin(), sources.end(), before.begin(), before.end(), is_same)) {
     return;
   }
   state_.sources = std::move(sources);
+  state_.has_driver = has_driver;
   ++state_.revision;
 }
 

@@ -50,8 +50,9 @@ class LiveCalibrator {
   // Hands the result's camera to `send`, which says what became of it.
   Outcome Commit(const std::function<Outcome(const Camera&)>& send);
 
-  // How the sources go; in the place of what was noted before.
-  void NoteSources(std::vector<SourceNote> sources);
+  // How the sources go, and whether there is a driver to commit to; in the place of what was noted
+  // before.
+  void NoteSources(std::vector<SourceNote> sources, bool has_driver);
 
   CalibratorState state() const;
 

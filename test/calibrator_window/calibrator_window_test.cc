@@ -131,6 +131,13 @@ TEST_F(CalibratorWindowTest, WhatCannotBeReliedOnIsNotCommitted) {
   EXPECT_EQ(Text("findings"), "Marker 3 has moved.");
 }
 
+TEST_F(CalibratorWindowTest, WithoutADriverThereIsNothingToCommitTo) {
+  CalibratorState state = CalibratedState();
+  state.has_driver = false;
+  Show(state);
+  EXPECT_EQ(Enabled(), "save");
+}
+
 TEST_F(CalibratorWindowTest, SaysWhatKeepsPhotosAway) {
   CalibratorState state = StateAfter(0);
   state.sources = {{"/camera/image: no image yet", true}};

@@ -90,6 +90,7 @@ inline ros_adapter::CalibratorState CalibratedState() {
   result.coverage = state.progress.coverage;
   state.result = std::make_shared<const CalibrationResult>(result);
   state.is_result_current = true;
+  state.has_driver = true;
   return state;
 }
 

@@ -17,6 +17,9 @@ struct CoverageBar {
   int wanted = 0;
 };
 
+// Of CalibrationCoverage::image_share; with less, distortion is a guess where no marker was.
+constexpr double kWantedImageShare = 0.7;
+
 // What the photos show so far; needs no knowledge of the lens. Plain values, to be copied freely.
 struct CalibrationCoverage {
   int width_px = 0;  // Of the photos; 0 without any.
