@@ -120,7 +120,7 @@ TEST(DetectMarkers, ItsCovarianceIsThatOfItsErrors) {
   const Camera camera = MakeCamera();
   double sum = 0.0;
   int count = 0;
-  for (int seed = 1; seed <= 10; ++seed) {
+  for (int seed = 1; seed <= 6; ++seed) {
     const Scene scene = MakeScene(camera, 24.0, 0.3, seed);
     PhotoConditions conditions;
     conditions.noise = 4.0;
@@ -135,8 +135,9 @@ TEST(DetectMarkers, ItsCovarianceIsThatOfItsErrors) {
       }
     }
   }
-  ASSERT_GE(count, 190);
-  EXPECT_NEAR(sum / count, 2.0, 0.7);  // Chi-square of two degrees of freedom.
+  ASSERT_GE(count, 114);
+  // Chi-square of two degrees of freedom; of 120 the mean has a standard deviation of 0.18.
+  EXPECT_NEAR(sum / count, 2.0, 0.7);
 }
 
 TEST(DetectMarkers, TheHomographyTellsWhereTheMarkersPointsAre) {
