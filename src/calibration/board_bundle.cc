@@ -23,7 +23,7 @@ constexpr double kTangentialSigma = 0.02;
 constexpr double kPrincipalSigmaPerWidth = 0.1;
 constexpr double kAspectSigma = 0.05;
 // What a printer does to a grid, as shares, and to a single marker, in marker diameters.
-constexpr double kStretchSigma = 0.003;
+constexpr double kStretchSigma = 0.01;
 constexpr double kShearSigma = 0.002;
 constexpr double kPrintSigma = 0.003;
 
@@ -316,6 +316,9 @@ Eigen::MatrixXd Bundle::Covariance() {
 BoardBundleReport SolveBoard(const Board& board,
                              const BoardBundleSettings& settings,
                              BoardState* state) {
+  for (const MarkerView& view : board.views) {
+    if (!view.is_wrong && !PixelResidual(view, *state).allFinite()) return {};
+  }
   Bundle bundle(board, settings, *state);
   const BoardBundleReport report = bundle.Solve();
   if (report.is_usable) bundle.WriteTo(state);

@@ -19,6 +19,11 @@ constexpr int kMinViewsPerPhoto = 4;
 constexpr double kMaxWrongOfMarker = 0.3;
 constexpr double kMaxWrongOfPhoto = 0.5;
 constexpr double kRayleighMedian = 1.1774;  // Of the length of two standard normal values.
+// Residuals count to the noise up to so many standard deviations: with 2 nearly half of them may be
+// wrong. The mean square of two standard normal values that are cut off there, per value.
+constexpr double kNoiseCut = 2.0;
+constexpr double kCutMeanSquare = 0.8647;  // 1 - exp(-2).
+constexpr int kNoiseIterations = 20;
 constexpr double kMinNoiseFactor = 0.3;
 constexpr int kMinRedundancy = 8;
 
@@ -88,9 +93,12 @@ class Refiner {
   bool Start() {
     settings_.is_flat = true;
     settings_.is_free[kFx] = settings_.is_free[kK1] = settings_.is_free[kK2] = true;
+    settings_.noise_factor = kSearchNoise;
     if (!SolveBoard(board_, settings_, &state_).is_usable) return false;
     for (const int k : {kFy, kCx, kCy, kP1, kP2}) Free(k);
     if (!SolveBoard(board_, settings_, &state_).is_usable) return false;
+    // What a bent sheet leaves now must not count as wrong before the heights are free.
+    EstimateNoise();
     settings_.is_flat = false;
     Free(kK3);
     if (!options_.rational) return true;
@@ -171,11 +179,15 @@ class Refiner {
       if (!view.is_wrong) lengths.push_back(WhitenedResidual(view, state_).norm());
     }
     if (lengths.empty()) return;
-    const double num_observed = 2.0 * static_cast<double>(lengths.size());
+    // As Huber's proposal 2: sum of min(length, cut noise)^2 = mean square noise^2 redundancy.
     const double redundancy = std::max(1.0, static_cast<double>(NumRedundant()));
-    settings_.noise_factor = std::max(
-        kMinNoiseFactor,
-        MedianOf(std::move(lengths)) / kRayleighMedian * std::sqrt(num_observed / redundancy));
+    double noise = MedianOf(lengths) / kRayleighMedian;
+    for (int i = 0; i < kNoiseIterations; ++i) {
+      double sum = 0.0;
+      for (const double length : lengths) sum += std::pow(std::min(length, kNoiseCut * noise), 2);
+      noise = std::sqrt(sum / (kCutMeanSquare * redundancy));
+    }
+    settings_.noise_factor = std::max(kMinNoiseFactor, noise);
   }
 
   // RMS of the heights, within the bounds of CalibrationOptions::height_sigma.

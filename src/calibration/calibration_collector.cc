@@ -42,14 +42,15 @@ bool IsGoodEnough(const CalibrationResult& result) {
 std::string NoteOn(const std::string& name,
                    const std::vector<CalibrationPhoto>& photos,
                    const CalibrationResult& result) {
+  std::string note;
+  for (const CalibrationPhoto& photo : photos) {
+    if (photo.name == name) note = Count(photo.markers.size(), "marker");
+  }
   for (const CalibrationFinding& finding : result.findings) {
     const bool is_named = std::count(finding.photos.begin(), finding.photos.end(), name) > 0;
-    if (is_named) return finding.text;
+    if (is_named) note += ". " + finding.text;
   }
-  for (const CalibrationPhoto& photo : photos) {
-    if (photo.name == name) return Count(photo.markers.size(), "marker");
-  }
-  return "";
+  return note;
 }
 
 }  // namespace

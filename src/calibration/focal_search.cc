@@ -17,7 +17,7 @@ constexpr std::size_t kMaxCandidates = 3;
 constexpr double kNearBest = 1.3;  // Of the smallest error.
 // What a view counts for that the start cannot place, in standard deviations: as much as one that
 // is many pixels off.
-constexpr double kUnplacedSigmas = 500.0;
+constexpr double kUnplacedSigmas = 50.0;
 
 // Half of Cauchy's norm, as Ceres has it.
 double RobustCost(double sigmas, double width) {
@@ -52,6 +52,7 @@ std::optional<FocalCandidate> TryFocalLength(const CalibrationOptions& options,
   BoardBundleSettings settings;
   settings.is_free[kK1] = settings.is_free[kK2] = true;
   settings.is_flat = true;
+  settings.noise_factor = kSearchNoise;
   settings.robust_width = options.robust_width;
   settings.prior_focal_px = focal_px;
   settings.max_iterations = kMaxIterations;
@@ -59,7 +60,8 @@ std::optional<FocalCandidate> TryFocalLength(const CalibrationOptions& options,
   if (!report.is_usable) return std::nullopt;
   const double cost =
       report.cost + num_unplaced * RobustCost(kUnplacedSigmas, options.robust_width);
-  const double error = std::sqrt(2.0 * cost / static_cast<double>(num_views + num_unplaced));
+  const double error =
+      kSearchNoise * std::sqrt(2.0 * cost / static_cast<double>(num_views + num_unplaced));
   return FocalCandidate{std::move(*start), error};
 }
 

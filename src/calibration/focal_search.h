@@ -12,6 +12,10 @@
 
 namespace plumb {
 
+// Centres count as so much less precise than they are while only two terms of the distortion and a
+// plane explain them.
+constexpr double kSearchNoise = 10.0;
+
 struct FocalCandidate {
   BoardStart start;    // Adjusted: planar, with two radial terms, principal point in the middle.
   double error = 0.0;  // FocalSearch::error.

@@ -51,6 +51,7 @@ void RunWithWindow(int argc, char** argv, const CalibrationOptions& options, Cal
   timer.start(kLookForEnd_ms);
   QApplication::exec();
   spinner.stop();
+  ros::requestShutdown();  // A driver that does not answer must not hold up the end.
 }
 
 }  // namespace

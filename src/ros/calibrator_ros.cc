@@ -31,7 +31,7 @@ constexpr std::uint32_t kImageQueue = 2;
 constexpr std::uint32_t kProgressQueue = 10;
 
 // A camera that is slower is told apart from one that has stopped.
-constexpr double kSilence_s = 5.0;
+constexpr double kSilence_s = 3.0;
 
 double SteadySeconds() { return ros::SteadyTime::now().toSec(); }
 

@@ -59,7 +59,7 @@ TEST(MeasureCoverage, TellsTiltDirectionTurnAndDistance) {
   const std::vector<CalibrationPhoto> photos = {Photo(Pose(14.0, 0, 0.0, 0.0), "flat"),
                                                 Photo(Pose(14.0, 1, 0.0, 0.0), "turned"),
                                                 Photo(Pose(20.0, 0, 0.4, 0.0), "far, tilted"),
-                                                Photo(Pose(14.0, 0, 0.7, 0.5 * M_PI), "side"),
+                                                Photo(Pose(16.0, 0, 0.6, 0.5 * M_PI), "side"),
                                                 Photo(Pose(10.0, 2, 0.0, 0.0), "near")};
   const CalibrationCoverage coverage = MeasureCoverage(photos);
   EXPECT_EQ(coverage.num_photos, 5);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Renders photos of strewn coded markers into a folder: make_calibration_photos FOLDER COUNT.
-// Prints the camera they are taken with.
+// Renders photos of strewn coded markers into a folder: make_calibration_photos FOLDER COUNT. Each
+// is there as PNG and as PGM, 101 and on. Prints the camera they are taken with.
 #include <cstdlib>
 #include <iostream>
 #include <opencv2/imgcodecs.hpp>
@@ -19,8 +19,10 @@ int main(int argc, char** argv) {
   options.num_photos = std::atoi(argv[2]);
   int number = 0;
   for (const cv::Mat& photo : plumb::test::RenderCalibrationPhotos(options)) {
-    const std::string name = std::to_string(100 + ++number) + ".png";
-    if (!cv::imwrite(argv[1] + ('/' + name), photo)) return EXIT_FAILURE;
+    const std::string path = std::string(argv[1]) + '/' + std::to_string(100 + ++number);
+    if (!cv::imwrite(path + ".png", photo) || !cv::imwrite(path + ".pgm", photo)) {
+      return EXIT_FAILURE;
+    }
   }
   std::cout << plumb::ToCameraYaml(options.camera);
   return EXIT_SUCCESS;
