@@ -26,6 +26,8 @@ constexpr double kCutMeanSquare = 0.8647;  // 1 - exp(-2).
 constexpr int kNoiseIterations = 20;
 constexpr double kMinNoiseFactor = 0.3;
 constexpr int kMinRedundancy = 8;
+constexpr int kMaxTightenings = 4;
+constexpr double kTightenFactor = 1.3;
 
 double MedianOf(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -69,7 +71,13 @@ class Refiner {
     // What is judged last is what counts.
     BoardBundleReport report = SolveBoard(board_, settings_, &state_);
     std::optional<Camera> camera = MakeCamera();
-    // Terms that the photos do not tell may fold the image; the highest go first.
+    // Terms that the photos do not tell may fold the image. For a wider field the same shares of
+    // the radius mean smaller terms; at last the highest ones go.
+    for (int i = 0; i < kMaxTightenings && !camera && report.is_usable; ++i) {
+      settings_.prior_focal_px /= kTightenFactor;
+      report = SolveBoard(board_, settings_, &state_);
+      camera = MakeCamera();
+    }
     for (const int highest : {kK3, kK2}) {
       if (camera || !report.is_usable) break;
       for (const int k : std::initializer_list<int>{kK4, kK5, kK6, highest}) Hold(k);

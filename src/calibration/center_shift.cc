@@ -17,6 +17,10 @@ using Parameters = Eigen::Matrix<double, 8, 1>;  // Of a homography whose last e
 
 constexpr int kPointsPerCircle = 24;
 constexpr int kIterations = 4;
+constexpr int kPointsPerBorder = 4;
+constexpr double kStep_rad = 1e-4;
+// Between cells of the code; their borders hold a face against turning and skewing.
+constexpr double kBorderShare = 0.5;
 // The face's circles and the share of each that shows an edge.
 constexpr std::pair<double, double> kCircles[] = {
     {1.0, 1.0}, {kStripeOuterRadius, 0.5}, {kStripeInnerRadius, 0.5}, {kDiscRadius, 1.0}};
@@ -69,22 +73,46 @@ struct EdgePoint {
   double weight;
 };
 
+// An edge through `in_marker` along `step`, both in radii, that stands for `weight` times the step.
 std::optional<EdgePoint> MakeEdgePoint(const Face& face,
-                                       double radius,
-                                       double edge_share,
-                                       double angle_rad) {
-  constexpr double kStep_rad = 1e-4;
-  const auto at = [&](double angle) {
-    return Eigen::Vector2d(radius * std::cos(angle), radius * std::sin(angle));
-  };
-  const auto pixel = face.Project(at(angle_rad));
-  const auto next = face.Project(at(angle_rad + kStep_rad));
+                                       const Eigen::Vector2d& in_marker,
+                                       const Eigen::Vector2d& step,
+                                       double weight) {
+  const auto pixel = face.Project(in_marker);
+  const auto next = face.Project(in_marker + step);
   if (!pixel || !next) return std::nullopt;
   const Eigen::Vector2d along = *next - *pixel;
   const double length = along.norm();
   if (!(length > 0.0)) return std::nullopt;
   return EdgePoint{
-      at(angle_rad), *pixel, Eigen::Vector2d(-along.y(), along.x()) / length, edge_share * length};
+      in_marker, *pixel, Eigen::Vector2d(-along.y(), along.x()) / length, weight * length};
+}
+
+// Circles and the borders of cells, as a face shows them on average; nothing unless all are seen.
+std::optional<std::vector<EdgePoint>> EdgesOf(const Face& face) {
+  std::vector<EdgePoint> points;
+  const auto add = [&](double angle_rad, double radius, bool is_border, double weight) {
+    const Eigen::Vector2d outward(std::cos(angle_rad), std::sin(angle_rad));
+    const Eigen::Vector2d around(-outward.y(), outward.x());
+    const Eigen::Vector2d step = kStep_rad * (is_border ? outward : around);
+    const auto point = MakeEdgePoint(face, radius * outward, step, weight / kStep_rad);
+    if (point) points.push_back(*point);
+    return point.has_value();
+  };
+  for (const auto& [radius, edge_share] : kCircles) {
+    const double length = 2.0 * M_PI * radius / kPointsPerCircle;
+    for (int i = 0; i < kPointsPerCircle; ++i) {
+      const double angle_rad = 2.0 * M_PI * i / kPointsPerCircle;
+      if (!add(angle_rad, radius, false, edge_share * length)) return std::nullopt;
+    }
+  }
+  const double length = (kStripeOuterRadius - kStripeInnerRadius) / kPointsPerBorder;
+  for (int i = 0; i < kNumCodeBits * kPointsPerBorder; ++i) {
+    const double angle_rad = 2.0 * M_PI * (i / kPointsPerBorder) / kNumCodeBits;
+    const double radius = kStripeInnerRadius + (i % kPointsPerBorder + 0.5) * length;
+    if (!add(angle_rad, radius, true, kBorderShare * length)) return std::nullopt;
+  }
+  return points;
 }
 
 }  // namespace
@@ -96,14 +124,8 @@ Eigen::Vector2d CenterShift(const MarkerView& view, const BoardState& state) {
   const auto right = face.Project({kStep, 0.0});
   const auto below = face.Project({0.0, kStep});
   if (!center || !right || !below) return Eigen::Vector2d::Zero();
-  std::vector<EdgePoint> points;
-  for (const auto& [radius, edge_share] : kCircles) {
-    for (int i = 0; i < kPointsPerCircle; ++i) {
-      const auto point = MakeEdgePoint(face, radius, edge_share, 2.0 * M_PI * i / kPointsPerCircle);
-      if (!point) return Eigen::Vector2d::Zero();
-      points.push_back(*point);
-    }
-  }
+  const std::optional<std::vector<EdgePoint>> points = EdgesOf(face);
+  if (!points) return Eigen::Vector2d::Zero();
   const Eigen::Vector2d x = (*right - *center) / kStep;
   const Eigen::Vector2d y = (*below - *center) / kStep;
   Parameters h;  // Pixels relative to the centre.
@@ -111,7 +133,7 @@ Eigen::Vector2d CenterShift(const MarkerView& view, const BoardState& state) {
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     Eigen::Matrix<double, 8, 8> normal_matrix = Eigen::Matrix<double, 8, 8>::Zero();
     Parameters right_side = Parameters::Zero();
-    for (const EdgePoint& point : points) {
+    for (const EdgePoint& point : *points) {
       const Parameters derivative = Derivative(h, point.in_marker, point.normal);
       const Eigen::Vector2d off = point.pixel - *center - Apply(h, point.in_marker);
       normal_matrix += point.weight * derivative * derivative.transpose();

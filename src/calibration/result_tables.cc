@@ -65,6 +65,7 @@ class TableWriter {
     const std::size_t num_photos = intake_.photo_of_board.size();
     square_of_photo_.assign(num_photos, 0.0);
     square_of_marker_.assign(intake_.marker_ids.size(), 0.0);
+    height_sigmas_ = HeightSigmas();
     turns_.assign(intake_.marker_ids.size(), Eigen::Vector2d::Zero());
     for (std::size_t i = 0; i < solution_.board.views.size(); ++i) WriteView(i);
     for (std::size_t i = 0; i < num_photos; ++i) WritePhoto(i);
@@ -140,13 +141,43 @@ class TableWriter {
     if (count > 0) row.distance = unit_ * (cam_from_plane * (middle / count)).norm();
   }
 
+  // Standard deviations of the heights against the plane through all of them: place and slope of
+  // the plane itself are held by the heights' prior only.
+  Eigen::VectorXd HeightSigmas() const {
+    std::vector<Eigen::Index> used;
+    for (std::size_t i = 0; i < solution_.is_marker_out.size(); ++i) {
+      if (solution_.is_marker_out[i] == 0) used.push_back(static_cast<Eigen::Index>(i));
+    }
+    const auto count = static_cast<Eigen::Index>(used.size());
+    Eigen::MatrixXd covariance(count, count);
+    Eigen::MatrixXd plane(count, 3);
+    for (Eigen::Index a = 0; a < count; ++a) {
+      const Eigen::Index row = used[static_cast<std::size_t>(a)];
+      const Eigen::Vector3d& center =
+          solution_.state.centers_in_plane[static_cast<std::size_t>(row)];
+      plane.row(a) << center.x(), center.y(), 1.0;
+      for (Eigen::Index b = 0; b < count; ++b) {
+        covariance(a, b) = solution_.covariance(
+            kNumLensParameters + row, kNumLensParameters + used[static_cast<std::size_t>(b)]);
+      }
+    }
+    const Eigen::MatrixXd left = Eigen::MatrixXd::Identity(count, count) -
+                                 plane * plane.completeOrthogonalDecomposition().pseudoInverse();
+    const Eigen::MatrixXd relative = left * covariance * left.transpose();
+    Eigen::VectorXd sigmas =
+        Eigen::VectorXd::Zero(static_cast<Eigen::Index>(solution_.is_marker_out.size()));
+    for (Eigen::Index a = 0; a < count; ++a) {
+      sigmas(used[static_cast<std::size_t>(a)]) = std::sqrt(std::max(0.0, relative(a, a)));
+    }
+    return sigmas;
+  }
+
   void WriteMarker(std::size_t idx) {
     CalibratedMarker& row = result_->markers[idx];
     row.is_used = solution_.is_marker_out[idx] == 0;
     if (!row.is_used) return;
     row.center_in_plane = unit_ * (solution_.state.centers_in_plane[idx] - middle_);
-    const auto height = kNumLensParameters + static_cast<Eigen::Index>(idx);
-    row.height_sigma = unit_ * std::sqrt(std::max(0.0, solution_.covariance(height, height)));
+    row.height_sigma = unit_ * height_sigmas_(static_cast<Eigen::Index>(idx));
     row.rms_px = std::sqrt(square_of_marker_[idx] / std::max(1, row.num_photos - row.num_wrong));
     row.angle_rad = std::atan2(turns_[idx].y(), turns_[idx].x());
   }
@@ -160,6 +191,7 @@ class TableWriter {
   std::vector<double> square_of_photo_;
   std::vector<double> square_of_marker_;
   std::vector<Eigen::Vector2d> turns_;
+  Eigen::VectorXd height_sigmas_;
 };
 
 }  // namespace

@@ -190,7 +190,7 @@ TEST(CalibrateCamera, DoesWithTwoThirdsOfTheMarkers) {
 
 TEST(CalibrateCamera, FitsARationalLens) {
   LensParameters<double> lens = test::CalibrationLens();
-  lens[kFx] = lens[kFy] = 900.0;
+  lens[kFx] = lens[kFy] = 1300.0;
   lens[kK1] = 0.1;
   lens[kK2] = 0.02;
   lens[kK4] = 0.25;

@@ -43,8 +43,8 @@ struct CalibrationSceneOptions {
   Camera camera = CalibrationCamera();
   int num_photos = 12;
   double max_tilt_deg = 45.0;
-  double min_fill = 0.45;  // Of the photo's width by the markers: how near the camera is.
-  double max_fill = 1.0;
+  double min_fill = 0.6;  // Of the photo's width by the markers: how near the camera is.
+  double max_fill = 1.2;
   bool turns_camera = true;  // By quarters about its axis, from photo to photo.
   double noise_factor = 1.0;
   double hidden_share = 0.0;  // Of the markers in each photo.
