@@ -22,7 +22,6 @@ namespace {
 // A lens without a calibration is taken to have a focal length of half the photo's width or more.
 constexpr double kMinFocalPerWidth = 0.5;
 constexpr double kMinEdgeShare = 0.15;  // Of the contrast that an edge rises by within a pixel.
-constexpr double kMaxReachShare = 0.35;
 constexpr double kFineReachPx = 2.0;
 constexpr double kMinDiscPx = 4.0;
 
@@ -32,9 +31,10 @@ constexpr double kMinDiscPx = 4.0;
 constexpr double kLookIn = 0.1;  // Radii: the middle of the black ring, short of the code.
 constexpr double kLookOutPerReduction = 0.6;
 constexpr int kNumLooks = 16;
-constexpr int kMinLooks = 11;
-constexpr double kMinLookRise = 0.25;
-constexpr double kMinLookContrast = 0.3;  // Of the least contrast of a marker; blur takes the rest.
+constexpr int kMinLooks = 9;
+constexpr double kMinLookRise = 0.1;
+constexpr double kMinLookContrast =
+    0.15;  // Of the least contrast of a marker; blur takes the rest.
 
 // Homography from the canonical circle, without a rotation, by the outer ellipse and the seen
 // centre of the circle. A homography [A c; v 1] maps the centre of a circle of radius r to c, and
@@ -85,10 +85,7 @@ bool HasDarkInside(const GraySampler& gray, const MarkerCandidate& candidate, do
 std::optional<Ellipse> MarkerExaminer::FindOuterEllipse(const MarkerCandidate& candidate) const {
   if (!HasDarkInside(gray_, candidate, options_.min_contrast)) return std::nullopt;
   EdgeSearch search;
-  const double minor_px = candidate.ellipse.semi_minor_px;
-  search.reach_px = std::max(1.5 * candidate.reduction, 0.12 * minor_px);
-  // Not into the code, where a small marker's edges are steeper than its rim.
-  search.reach_px = std::min(search.reach_px, std::max(1.5, kMaxReachShare * minor_px));
+  search.reach_px = std::max(1.5 * candidate.reduction, 0.12 * candidate.ellipse.semi_minor_px);
   search.min_step = kMinEdgeShare * options_.min_contrast;
   const std::optional<Ellipse> found = RefineEllipse(gray_, candidate.ellipse, search);
   if (!found || found->semi_minor_px < 0.45 * options_.min_diameter_px ||
