@@ -47,6 +47,7 @@ plumb_module(camera plumb_geometry yaml-cpp)
 plumb_module(image plumb_camera opencv_core opencv_imgproc opencv_imgcodecs opencv_features2d
              PkgConfig::LIBJPEG PkgConfig::EXIV2 ZLIB::ZLIB)
 plumb_module(marker plumb_image PkgConfig::CAIRO)
+plumb_module(calibration plumb_marker Ceres::ceres nlohmann_json::nlohmann_json PkgConfig::CAIRO)
 plumb_module(map plumb_image PkgConfig::SQLITE3 nlohmann_json::nlohmann_json)
 plumb_module(matching plumb_map opencv_core)
 plumb_module(sfm plumb_matching Ceres::ceres)
@@ -63,7 +64,8 @@ target_link_libraries(plumb_evaluation PRIVATE CGAL::CGAL)
 target_include_directories(plumb_evaluation SYSTEM PRIVATE ${NANOFLANN_INCLUDE_DIR})
 
 # The command-line program; all but its main is a library, so that it can be tested.
-plumb_module(tools plumb_evaluation plumb_georeference plumb_marker plumb_simulation yaml-cpp CLI11::CLI11)
+plumb_module(tools plumb_evaluation plumb_calibration plumb_georeference plumb_simulation yaml-cpp
+             CLI11::CLI11)
 target_compile_definitions(plumb_tools PRIVATE
                            PLUMBLINE_SCENARIOS="${PROJECT_SOURCE_DIR}/config/scenarios")
 file(STRINGS ${PROJECT_SOURCE_DIR}/package.xml version_line REGEX "<version>")
@@ -95,7 +97,8 @@ function(plumb_module_test name)
                  LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/test/sanitizer_suppressions.txt)
   endif()
 endfunction()
-foreach(module common geometry camera image marker map matching sfm georeference simulation export evaluation tools)
+foreach(module common geometry camera image marker calibration map matching sfm georeference
+               simulation export evaluation tools)
   plumb_module_test(${module} plumb_${module} plumb_camera)  # test/support makes scenes.
 endforeach()
 
@@ -114,5 +117,8 @@ if(benchmark_FOUND AND APRILTAG_FOUND AND TARGET opencv_aruco)
   endforeach()
   # The marker detector is measured beside two others.
   target_link_libraries(marker_benchmark PRIVATE plumb_marker opencv_aruco PkgConfig::APRILTAG
+                        nlohmann_json::nlohmann_json)
+  # The calibration beside OpenCV's.
+  target_link_libraries(calibration_benchmark PRIVATE plumb_calibration
                         nlohmann_json::nlohmann_json)
 endif()

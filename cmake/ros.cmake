@@ -12,9 +12,11 @@ file(MAKE_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib/python3/dist-packages)
 find_package(catkin REQUIRED COMPONENTS cv_bridge diagnostic_msgs
              diagnostic_updater geometry_msgs message_generation nav_msgs rosbag_storage roscpp sensor_msgs std_msgs std_srvs tf2_ros visualization_msgs)
 
-add_message_files(FILES LandmarkStates.msg MapDelta.msg ObservationStates.msg Photo.msg
-                  PhotoVerdict.msg StoredPhotos.msg ViewState.msg)
+add_message_files(FILES LandmarkStates.msg MapDelta.msg MarkerDetection.msg
+                  MarkerDetectionArray.msg ObservationStates.msg Photo.msg PhotoVerdict.msg
+                  StoredPhotos.msg ViewState.msg)
 add_service_files(FILES GetMap.srv)
+add_message_files(FILES CalibrationProgress.msg CoverageBar.msg)
 generate_messages(DEPENDENCIES geometry_msgs sensor_msgs std_msgs)
 catkin_package(CATKIN_DEPENDS message_runtime geometry_msgs sensor_msgs std_msgs)
 
@@ -24,7 +26,13 @@ add_dependencies(plumb_ros ${PROJECT_NAME}_generate_messages_cpp)
 target_include_directories(plumb_ros PUBLIC ${PROJECT_SOURCE_DIR}/src)
 target_include_directories(plumb_ros SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/include
                            ${catkin_INCLUDE_DIRS})
-target_link_libraries(plumb_ros PUBLIC plumb_export ${catkin_LIBRARIES} PRIVATE plumb_warnings)
+target_link_libraries(plumb_ros PUBLIC plumb_export plumb_marker ${catkin_LIBRARIES}
+                      PRIVATE plumb_warnings)
+
+# The calibrator takes images of either kind from one topic.
+find_package(topic_tools REQUIRED)
+target_include_directories(plumb_ros SYSTEM PUBLIC ${topic_tools_INCLUDE_DIRS})
+target_link_libraries(plumb_ros PUBLIC plumb_calibration ${topic_tools_LIBRARIES})
 
 # src/nodes/<name>_node.cc becomes `rosrun plumbline <name>`.
 file(GLOB node_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/nodes/*_node.cc)
@@ -38,6 +46,15 @@ foreach(source ${node_sources})
   target_link_libraries(${stem} PRIVATE plumb_ros plumb_warnings)
   list(APPEND programs ${stem})
 endforeach()
+
+# The calibrator's window, of Qt.
+find_package(Qt5 REQUIRED COMPONENTS Widgets)
+file(GLOB window_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/calibrator_window/*.cc)
+add_library(plumb_calibrator_window STATIC ${window_sources})
+target_compile_definitions(plumb_calibrator_window PUBLIC QT_NO_KEYWORDS)
+target_link_libraries(plumb_calibrator_window PUBLIC plumb_ros Qt5::Widgets PRIVATE plumb_warnings)
+target_link_libraries(calibrator_node PRIVATE plumb_calibrator_window)
+
 if(TARGET plumbline_tool)
   set_target_properties(plumbline_tool PROPERTIES RUNTIME_OUTPUT_DIRECTORY
                         ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
@@ -73,6 +90,30 @@ if(CATKIN_ENABLE_TESTING)
     target_link_libraries(ros_test PRIVATE plumb_ros GTest::gmock GTest::gtest_main plumb_warnings)
     add_test(NAME ros_test COMMAND ros_test)
   endif()
+
+  # The calibrator's window, drawn into memory.
+  find_package(Qt5 REQUIRED COMPONENTS Test)
+  file(GLOB window_test_sources CONFIGURE_DEPENDS
+       ${PROJECT_SOURCE_DIR}/test/calibrator_window/*.cc)
+  add_executable(calibrator_window_test EXCLUDE_FROM_ALL ${window_test_sources})
+  add_dependencies(tests calibrator_window_test)
+  set_target_properties(calibrator_window_test PROPERTIES
+                        RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
+  target_include_directories(calibrator_window_test PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(calibrator_window_test PRIVATE plumb_calibrator_window Qt5::Test
+                        GTest::gmock GTest::gtest plumb_warnings)
+  add_test(NAME calibrator_window_test COMMAND calibrator_window_test)
+
+  # Photos for calibrate.test.
+  add_executable(make_calibration_photos EXCLUDE_FROM_ALL
+                 ${PROJECT_SOURCE_DIR}/test/ros/make_calibration_photos.cc)
+  add_dependencies(tests make_calibration_photos)
+  set_target_properties(make_calibration_photos PROPERTIES RUNTIME_OUTPUT_DIRECTORY
+                        ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
+  target_include_directories(make_calibration_photos PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(make_calibration_photos PRIVATE plumb_marker plumb_warnings
+                        opencv_imgcodecs)
+
   file(GLOB rostests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/ros/*.test)
   foreach(rostest ${rostests})
     add_rostest(${rostest} DEPENDENCIES ${programs})

@@ -13,10 +13,11 @@ import os
 import sys
 import traceback
 
-from benchmark import realism, reconstruction, scenarios
+from benchmark import calibration, markers, realism, reconstruction, scenarios
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-SECTIONS = {"reconstruction": reconstruction, "realism": realism, "scenarios": scenarios}
+SECTIONS = {"reconstruction": reconstruction, "realism": realism, "scenarios": scenarios,
+            "markers": markers, "calibration": calibration}
 
 
 def built_program():

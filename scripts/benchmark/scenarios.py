@@ -19,7 +19,8 @@ def add_arguments(parser):
     parser.add_argument("--scenario", action="append", choices=scenario_names(),
                         help="only this one; repeat")
     parser.add_argument("--quick", action="store_true",
-                        help="no more than the first %d photos of a scenario" % QUICK_PHOTOS)
+                        help="no more than the first %d photos of a scenario, and few rendered markers"
+                        % QUICK_PHOTOS)
 
 
 def run(arguments):

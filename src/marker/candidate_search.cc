@@ -17,16 +17,23 @@ namespace {
 // next level, of half its size, takes over well before.
 constexpr double kMinDiameter = 6.0;
 constexpr double kMaxDiameter = 48.0;
+
 // Sides of the local mean's square. The wide one holds a tilted marker of any size; the narrow one,
-// for the finest level alone, keeps a small one apart from what lies beyond its quiet zone.
+// for the smallest, keeps a marker apart from what lies beyond its quiet zone.
 constexpr int kWideWindow = 31;
 constexpr int kNarrowWindow = 13;
-constexpr int kBandHeight = 192;
-constexpr int kBandMargin = static_cast<int>(kMaxDiameter) + 2;
+
+// Below this many pixels the code's cells are neither told apart nor blurred into one blob, and
+// notch the outline: the finest level on which the smallest marker has fewer is smoothed once more.
+constexpr double kMaxBlobDiameter = 9.0;
+
+// High, for each band costs its margin once more; enough of them for all cores.
+constexpr int kBandHeight = 512;
+constexpr int kBandMargin = static_cast<int>(kMaxDiameter) / 2 + kWideWindow / 2 + 2;
 
 // An outline's area over that of the ellipse of its second moments. 1 for ellipses, 0.955 for
 // a rectangle; digital discs of 6 pixels stay above 0.96, but specks on their rim cost some more.
-constexpr double kMinEllipticity = 0.93;
+constexpr double kMinEllipticity = 0.90;
 
 bool HasPossibleSize(const cv::Rect& box, const MarkerDetectorOptions& options) {
   const int longer = std::max(box.width, box.height);
@@ -53,11 +60,17 @@ std::optional<Ellipse> EllipseOfOutline(const std::vector<cv::Point>& outline) {
   return ellipse;
 }
 
-// One level of the pyramid.
+// How dark pixels are told.
+struct Search {
+  int window = kWideWindow;
+  bool is_smoothed = false;
+};
+
+// One search on one level of the pyramid.
 class Level {
  public:
-  Level(const MarkerDetectorOptions& options, cv::Mat gray, double reduction, int window)
-      : options_(options), gray_(std::move(gray)), reduction_(reduction), window_(window) {}
+  Level(const MarkerDetectorOptions& options, cv::Mat gray, double reduction, const Search& search)
+      : options_(options), gray_(std::move(gray)), reduction_(reduction), search_(search) {}
 
   int num_bands() const { return (gray_.rows + kBandHeight - 1) / kBandHeight; }
 
@@ -70,7 +83,7 @@ class Level {
     const cv::Mat dark = DarkPixels(rows);
     std::vector<std::vector<cv::Point>> outlines;
     cv::findContours(
-        dark, outlines, cv::RETR_LIST, cv::CHAIN_APPROX_NONE, cv::Point(0, rows.start));
+        dark, outlines, cv::RETR_LIST, cv::CHAIN_APPROX_SIMPLE, cv::Point(0, rows.start));
     std::vector<MarkerCandidate> candidates;
     for (const std::vector<cv::Point>& outline : outlines) {
       const cv::Rect box = cv::boundingRect(outline);
@@ -85,9 +98,14 @@ class Level {
 
  private:
   cv::Mat DarkPixels(const cv::Range& rows) const {
-    const cv::Mat part = gray_.rowRange(rows);
+    cv::Mat part = gray_.rowRange(rows);
     cv::Mat mean;
-    cv::blur(part, mean, {window_, window_}, {-1, -1}, cv::BORDER_REPLICATE);
+    cv::blur(part, mean, {search_.window, search_.window}, {-1, -1}, cv::BORDER_REPLICATE);
+    if (search_.is_smoothed) {
+      cv::Mat smooth;
+      cv::blur(part, smooth, {3, 3}, {-1, -1}, cv::BORDER_REPLICATE);
+      part = smooth;
+    }
     cv::subtract(mean, part, mean);  // Saturates at 0.
     cv::Mat dark;
     cv::threshold(mean, dark, options_.min_darkness, 255.0, cv::THRESH_BINARY);
@@ -110,7 +128,7 @@ class Level {
   const MarkerDetectorOptions& options_;
   cv::Mat gray_;
   double reduction_;
-  int window_;
+  Search search_;
 };
 
 // Cut to whole pixels of the next level.
@@ -131,12 +149,17 @@ std::vector<Level> BuildPyramid(const MarkerDetectorOptions& options, const cv::
   std::vector<Level> levels;
   int reduction = std::max(1, static_cast<int>(options.min_diameter_px / kMinDiameter));
   cv::Mat level = Reduced(gray, reduction);
-  levels.emplace_back(options, level, reduction, kNarrowWindow);
+  levels.emplace_back(options, level, reduction, Search{kNarrowWindow, false});
+  bool has_smoothed = false;
   while (true) {
-    levels.emplace_back(options, level, reduction, kWideWindow);
+    if (!has_smoothed && options.min_diameter_px < kMaxBlobDiameter * reduction) {
+      levels.emplace_back(options, level, reduction, Search{kNarrowWindow, true});
+      has_smoothed = true;
+    }
     if (std::min(level.cols, level.rows) < kMaxDiameter) return levels;
     level = Reduced(level, 2);
     reduction *= 2;
+    levels.emplace_back(options, level, reduction, Search{kWideWindow, false});
   }
 }
 

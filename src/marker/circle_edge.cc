@@ -17,15 +17,15 @@ constexpr double kEdgePointDistancePx = 1.2;
 constexpr int kNumFits = 3;
 
 // Grey values along a ray, at steps of kSampleStepPx about the ellipse.
-std::vector<double> SampleRay(const GraySampler& gray,
-                              const Eigen::Vector2d& on_ellipse_px,
-                              const Eigen::Vector2d& outward,
-                              int half_count) {
-  std::vector<double> values;
+void SampleRay(const GraySampler& gray,
+               const Eigen::Vector2d& on_ellipse_px,
+               const Eigen::Vector2d& outward,
+               int half_count,
+               std::vector<double>* values) {
+  values->clear();
   for (int i = -half_count; i <= half_count; ++i) {
-    values.push_back(gray.At(on_ellipse_px + i * kSampleStepPx * outward));
+    values->push_back(gray.At(on_ellipse_px + i * kSampleStepPx * outward));
   }
-  return values;
 }
 
 // Offset of the steepest rise from the middle [px].
@@ -67,6 +67,31 @@ std::vector<Eigen::Vector2d> PointsNear(const std::vector<Eigen::Vector2d>& poin
   return near;
 }
 
+// Edge points on the rays from the centre; none once too few can be left.
+std::vector<Eigen::Vector2d> FindEdgePoints(const GraySampler& gray,
+                                            const Ellipse& ellipse,
+                                            const EdgeSearch& search,
+                                            int num_directions,
+                                            int min_points) {
+  const Eigen::Matrix2d pixel_from_circle = ellipse.PixelFromCircle();
+  const int half_count = static_cast<int>(std::ceil(search.reach_px / kSampleStepPx));
+  const double sign = search.is_dark_inside ? 1.0 : -1.0;
+  std::vector<Eigen::Vector2d> points_px;
+  std::vector<double> values;
+  for (int i = 0; i < num_directions; ++i) {
+    const double angle_rad = 2.0 * M_PI * i / num_directions;
+    const Eigen::Vector2d ray =
+        pixel_from_circle * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
+    const Eigen::Vector2d outward = ray.normalized();
+    SampleRay(gray, ellipse.center_px + ray, outward, half_count, &values);
+    const std::optional<double> offset_px = FindRise(values, sign, search.min_step);
+    if (offset_px) points_px.push_back(ellipse.center_px + ray + *offset_px * outward);
+    const int num_left = num_directions - 1 - i;
+    if (static_cast<int>(points_px.size()) + num_left < min_points) return {};
+  }
+  return points_px;
+}
+
 }  // namespace
 
 std::optional<Ellipse> RefineEllipse(const GraySampler& gray,
@@ -80,30 +105,19 @@ std::optional<Ellipse> RefineEllipse(const GraySampler& gray,
       std::clamp(static_cast<int>(2.0 * M_PI * mean_radius_px / kEdgePointDistancePx),
                  kMinDirections,
                  kMaxDirections);
-  const Eigen::Matrix2d pixel_from_circle = ellipse.PixelFromCircle();
-  const int half_count = static_cast<int>(std::ceil(search.reach_px / kSampleStepPx));
-  std::vector<Eigen::Vector2d> points_px;
-  for (int i = 0; i < num_directions; ++i) {
-    const double angle_rad = 2.0 * M_PI * i / num_directions;
-    const Eigen::Vector2d ray =
-        pixel_from_circle * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
-    const Eigen::Vector2d outward = ray.normalized();
-    const std::optional<double> offset_px =
-        FindRise(SampleRay(gray, ellipse.center_px + ray, outward, half_count),
-                 search.is_dark_inside ? 1.0 : -1.0,
-                 search.min_step);
-    if (offset_px) points_px.push_back(ellipse.center_px + ray + *offset_px * outward);
-  }
-  const std::size_t min_points = static_cast<std::size_t>(search.min_share * num_directions);
+  const int min_points = static_cast<int>(search.min_share * num_directions);
+  const std::vector<Eigen::Vector2d> points_px =
+      FindEdgePoints(gray, ellipse, search, num_directions, min_points);
   std::vector<Eigen::Vector2d> agreeing_px = points_px;
   std::optional<Ellipse> result;
   for (int i = 0; i < kNumFits; ++i) {
-    if (agreeing_px.size() < min_points) return std::nullopt;
+    if (static_cast<int>(agreeing_px.size()) < min_points) return std::nullopt;
     result = FitEllipse(agreeing_px);
     if (!result) return std::nullopt;
     agreeing_px = PointsNear(points_px, *result, 0.4 + 0.02 * mean_radius_px);
   }
-  return agreeing_px.size() < min_points ? std::nullopt : result;
+  if (static_cast<int>(agreeing_px.size()) < min_points) return std::nullopt;
+  return result;
 }
 
 }  // namespace plumb

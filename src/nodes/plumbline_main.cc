@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
   AddExportCommand(&app, &exit_code);
   AddMarkersCommand(&app, &exit_code);
   AddDetectCommand(&app, &exit_code);
+  AddCalibrateCommand(&app, &exit_code);
   AddSimulateCommand(&app, BagWriter(), &exit_code);
   try {
     app.parse(argc, argv);

@@ -7,17 +7,10 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "ros/picture_banner.h"
+
 namespace plumb::ros_adapter {
 namespace {
-
-const cv::Scalar kGreen(60, 220, 60);
-const cv::Scalar kRed(60, 60, 255);
-const cv::Scalar kYellow(0, 200, 255);
-const cv::Scalar kWhite(255, 255, 255);
-const cv::Scalar kBlack(0, 0, 0);
-
-// Sizes are for a picture of this width and grow with it.
-constexpr double kReferenceWidth_px = 1280.0;
 
 const cv::Scalar& ColorOf(VerdictStatus status) {
   switch (status) {
@@ -64,12 +57,6 @@ void DrawPoints(const std::vector<Eigen::Vector2f>& pixels,
   }
 }
 
-struct Line {
-  std::string text;
-  double size;  // Of the letters; 1 is 22 px high.
-  cv::Scalar color;
-};
-
 std::string Spaced(std::string word) {
   std::replace(word.begin(), word.end(), '_', ' ');
   return word;
@@ -82,10 +69,10 @@ std::string Upper(std::string word) {
   return word;
 }
 
-std::vector<Line> BannerLines(const PhotoVerdict& verdict, const PhotoCounts& counts) {
+std::vector<BannerLine> BannerLines(const PhotoVerdict& verdict, const PhotoCounts& counts) {
   std::string title = Upper(ToString(verdict.status)) + "  " + verdict.name;
   if (verdict.reason != RefusalReason::kNone) title += ": " + Spaced(ToString(verdict.reason));
-  std::vector<Line> lines = {{title, 1.6, ColorOf(verdict.status)}};
+  std::vector<BannerLine> lines = {{title, 1.6, ColorOf(verdict.status)}};
   for (const std::string& line : WrapText(verdict.hint, 68)) lines.push_back({line, 1.1, kWhite});
   std::string facts;
   if (verdict.num_matches > 0) {
@@ -99,55 +86,7 @@ std::vector<Line> BannerLines(const PhotoVerdict& verdict, const PhotoCounts& co
   return lines;
 }
 
-// The title shrinks until a long file name fits.
-double FittingSize(const Line& line, double unit, int width_px, int thickness) {
-  const double size = line.size * unit;
-  const cv::Size extent =
-      cv::getTextSize(line.text, cv::FONT_HERSHEY_SIMPLEX, size, thickness, nullptr);
-  return extent.width <= width_px ? size : size * width_px / extent.width;
-}
-
-cv::Mat DrawBanner(const std::vector<Line>& lines, int width_px) {
-  const double unit = width_px / kReferenceWidth_px;
-  const int margin_px = static_cast<int>(std::lround(14.0 * unit));
-  double height_px = 2.0 * margin_px;
-  for (const Line& line : lines) height_px += 36.0 * line.size * unit;
-  cv::Mat banner(static_cast<int>(std::lround(height_px)), width_px, CV_8UC3, kBlack);
-  double y_px = margin_px;
-  for (const Line& line : lines) {
-    const int thickness = std::max(1, static_cast<int>(std::lround(2.0 * line.size * unit)));
-    const double size = FittingSize(line, unit, width_px - 3 * margin_px, thickness);
-    y_px += 36.0 * line.size * unit;
-    const cv::Point origin(2 * margin_px, static_cast<int>(std::lround(y_px - 8.0 * unit)));
-    cv::putText(banner,
-                line.text,
-                origin,
-                cv::FONT_HERSHEY_SIMPLEX,
-                size,
-                line.color,
-                thickness,
-                cv::LINE_AA);
-  }
-  banner.colRange(0, margin_px).setTo(lines.front().color);
-  return banner;
-}
-
 }  // namespace
-
-std::vector<std::string> WrapText(const std::string& text, std::size_t max_length) {
-  std::vector<std::string> lines;
-  std::size_t begin = 0;
-  while (begin < text.size()) {
-    std::size_t end = std::min(text.size(), begin + max_length);
-    if (end < text.size()) {
-      const std::size_t blank = text.rfind(' ', end);
-      if (blank != std::string::npos && blank > begin) end = blank;
-    }
-    lines.push_back(text.substr(begin, end - begin));
-    begin = end < text.size() && text[end] == ' ' ? end + 1 : end;
-  }
-  return lines;
-}
 
 cv::Mat DrawAnnotatedPhoto(const std::vector<std::uint8_t>& bytes,
                            const PhotoVerdict& verdict,

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <opencv2/core.hpp>
-#include <string>
 #include <vector>
 
 #include "plumbline/map/photo_verdict.h"
@@ -28,8 +27,5 @@ cv::Mat DrawAnnotatedPhoto(const std::vector<std::uint8_t>& bytes,
                            int full_width_px,
                            int full_height_px,
                            int max_width_px);
-
-// `text` in lines of at most `max_length` characters, broken at blanks where there are any.
-std::vector<std::string> WrapText(const std::string& text, std::size_t max_length);
 
 }  // namespace plumb::ros_adapter

@@ -9,6 +9,7 @@
 #include "plumbline/simulation/sensor.h"
 #include "simulation/clearance.h"
 #include "simulation/random_numbers.h"
+#include "simulation/utc_time.h"
 
 namespace plumb {
 namespace {
@@ -22,19 +23,29 @@ Scenario Checked(const Scenario& scenario) {
   return scenario;
 }
 
+World BuildWorld(const Scenario& scenario) {
+  return scenario.floor.num_photos > 0 ? BuildMarkerFloor(scenario.floor)
+                                       : BuildFacade(scenario.facade);
+}
+
+std::vector<PlannedPhoto> PlanPhotos(const Scenario& scenario, const Camera& camera) {
+  if (scenario.floor.num_photos > 0) {
+    return PlanFloorPhotos(scenario.floor, camera, *ParseUtcTime(scenario.flight.start_time));
+  }
+  return PlanFlight(
+      scenario.flight, camera, {scenario.facade.width_m, scenario.facade.depth_m}, scenario.seed);
+}
+
 }  // namespace
 
 Photographer::Photographer(const Scenario& scenario)
     : scenario_(Checked(scenario)),
       camera_(MakeTrueCamera(scenario.lens)),
-      world_(BuildFacade(scenario.facade)),
+      world_(BuildWorld(scenario)),
       renderer_(world_),
-      photos_(PlanFlight(scenario.flight,
-                         camera_,
-                         {scenario.facade.width_m, scenario.facade.depth_m},
-                         scenario.seed)),
+      photos_(PlanPhotos(scenario, camera_)),
       telemetry_(SimulateTelemetry(scenario.navigation, photos_, scenario.seed)) {
-  CheckClearance(renderer_, photos_);
+  if (scenario.floor.num_photos == 0) CheckClearance(renderer_, photos_);
   sample_of_photo_.resize(photos_.size());
   for (std::size_t i = 0; i < telemetry_.size(); ++i) {
     const int photo_idx = telemetry_[i].photo_idx;

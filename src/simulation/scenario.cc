@@ -58,6 +58,7 @@ std::vector<std::string> Scenario::Problems() const {
                    "in [1, 16]",
                    samples_per_axis);
   problems.Append("facade", facade.Problems());
+  problems.Append("floor", floor.Problems());
   problems.Append("light", ProblemsOf(light));
   problems.Append("lens", lens.Problems());
   problems.Append("sensor", sensor.Problems());

@@ -18,6 +18,7 @@ void AddGeoreferenceCommand(CLI::App* app, ExitCode* exit_code);
 void AddExportCommand(CLI::App* app, ExitCode* exit_code);
 void AddMarkersCommand(CLI::App* app, ExitCode* exit_code);
 void AddDetectCommand(CLI::App* app, ExitCode* exit_code);
+void AddCalibrateCommand(CLI::App* app, ExitCode* exit_code);
 
 // `write_bag` may be empty: no ROS in this build.
 void AddSimulateCommand(CLI::App* app, FlightBagWriter write_bag, ExitCode* exit_code);

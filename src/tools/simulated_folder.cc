@@ -24,7 +24,8 @@ using Json = nlohmann::ordered_json;
 constexpr char kReadme[] = R"(# A simulated flight
 Made by `plumbline simulate`; `scenario.yaml` is all that it was made of. The same scenario and seed
 give the same bytes. Lengths in metres. The world: x right along the facade, y into the building,
-z up; the main wall lies in y = 0 with its lower left corner at the origin; x is east, y north.
+z up; the main wall lies in y = 0 with its lower left corner at the origin; x is east, y north. A
+scenario with a `floor` has no wall: coded markers lie about the origin in z = 0.
 
 | file | holds |
 |---|---|
@@ -36,7 +37,7 @@ z up; the main wall lies in y = 0 with its lower left corner at the origin; x is
 | `flight.bag` | the photos as messages `/plumbline/photo`: `roslaunch plumbline replay.launch bag:=` |
 | `ground_truth/poses.csv` | true poses: Hamilton quaternion cam_from_world (camera x right, y down, z forward), centre in the world |
 | `ground_truth/rows.csv` | row and planned distance of each photo |
-| `ground_truth/laser.ply` | what a laser scanner on the ground sees, with its noise |
+| `ground_truth/laser.ply` | what a laser scanner on the ground sees, with its noise; not of a floor |
 | `ground_truth/surface.ply` | the surface itself |
 | `scenario.yaml` | the scenario, every value of it |
 )";
@@ -174,6 +175,7 @@ void WriteTrueSurface(const Photographer& photographer,
   if (!fs::exists(surface)) WriteSurfacePly(photographer.world(), surface);
   if (fs::exists(laser)) return;
   const Scenario& scenario = photographer.scenario();
+  if (scenario.floor.num_photos > 0) return;
   WriteLaserPly(ScanFacade(photographer.world(),
                            photographer.renderer(),
                            scenario.facade,

@@ -1,25 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Measures the marker detector, and prints JSON, a line per result:
-//   marker_benchmark scenes N    N markers a rendered scene with known truth, beside ArUco,
-//   apriltag marker_benchmark mixed N     N markers of any size, tilt, blur, noise, contrast: wrong
-//   IDs marker_benchmark photos DIR  photos without markers, as they are and enlarged to 16
-//   megapixels
-#include <apriltag/apriltag.h>
-#include <apriltag/tag36h11.h>
-
+// Measures the marker detector, and prints JSON, a line a result. The first argument is what:
+//   scenes N    N markers in each rendered scene with known truth, beside ArUco and apriltag
+//   mixed N     N markers of any size, tilt, blur, noise, contrast: are there wrong IDs?
+//   photos DIR  photos without markers: is any seen? And the time of 16 megapixels
+#include <algorithm>
 #include <cstdlib>
 #include <ctime>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <opencv2/aruco.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
 
 #include "plumbline/common/stopwatch.h"
 #include "plumbline/marker/marker_detector.h"
+#include "test/benchmark/marker_kinds.h"
 #include "test/support/marker_scene.h"
 #include "test/support/random.h"
 
@@ -34,154 +31,23 @@ double CpuSeconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-struct Found {
-  int id;
-  Eigen::Vector2d center_px;
-};
-
-// One kind of marker with its detector.
-class Kind {
- public:
-  virtual ~Kind() = default;
-  virtual std::string Name() const = 0;
-  virtual int NumIds() const = 0;
-  virtual Face FaceOf(int id) const = 0;
-  virtual double HalfSide() const = 0;  // Of the plate, in outer radii.
-  virtual std::vector<Found> Detect(const cv::Mat& gray) const = 0;
-};
-
-class CodedRings : public Kind {
- public:
-  explicit CodedRings(const Camera* camera) : camera_(camera) {}
-  std::string Name() const override { return "plumbline"; }
-  int NumIds() const override { return MarkerCodebook::Get().size(); }
-  Face FaceOf(int id) const override { return MarkerFace(id); }
-  double HalfSide() const override { return kQuietRadius; }
-  std::vector<Found> Detect(const cv::Mat& gray) const override {
-    const MarkerDetectorOptions options;
-    std::vector<Found> found;
-    for (const MarkerDetection& detection : DetectMarkers(options, gray, camera_)) {
-      found.push_back({detection.id, detection.center_px});
-    }
-    return found;
-  }
-
- private:
-  const Camera* camera_;
-};
-
-// A face by its modules, row by row; true is white.
-Face ModuleFace(const cv::Mat& modules) {
-  return [modules](const Eigen::Vector2d& point) {
-    if (point.cwiseAbs().maxCoeff() >= 1.0) return true;
-    const int x = static_cast<int>((point.x() + 1.0) * 0.5 * modules.cols);
-    const int y = static_cast<int>((point.y() + 1.0) * 0.5 * modules.rows);
-    return modules.at<std::uint8_t>(y, x) > 127;
-  };
-}
-
-class Aruco : public Kind {
- public:
-  Aruco() : dictionary_(cv::aruco::getPredefinedDictionary(cv::aruco::DICT_4X4_100)) {
-    parameters_ = cv::aruco::DetectorParameters::create();
-    parameters_->cornerRefinementMethod = cv::aruco::CORNER_REFINE_SUBPIX;
-    parameters_->minMarkerPerimeterRate = 0.01;  // Its default sees no marker below 36 px here.
-    parameters_->cornerRefinementWinSize = 2;    // Its default reaches over these markers' modules.
-    parameters_->adaptiveThreshWinSizeStep = 4;
-  }
-  std::string Name() const override { return "aruco 4x4_100"; }
-  int NumIds() const override { return 100; }
-  Face FaceOf(int id) const override {
-    cv::Mat modules;
-    cv::aruco::drawMarker(dictionary_, id, 6, modules, 1);
-    return ModuleFace(modules);
-  }
-  double HalfSide() const override { return 1.4; }
-  std::vector<Found> Detect(const cv::Mat& gray) const override {
-    std::vector<std::vector<cv::Point2f>> corners;
-    std::vector<int> ids;
-    cv::aruco::detectMarkers(gray, dictionary_, corners, ids, parameters_);
-    std::vector<Found> found;
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-      found.push_back({ids[i], DiagonalsMeet(corners[i])});
-    }
-    return found;
-  }
-
- private:
-  static Eigen::Vector2d DiagonalsMeet(const std::vector<cv::Point2f>& corners) {
-    std::vector<Eigen::Vector3d> points;
-    for (const cv::Point2f& corner : corners) points.emplace_back(corner.x, corner.y, 1.0);
-    return points[0].cross(points[2]).cross(points[1].cross(points[3])).hnormalized();
-  }
-
-  cv::Ptr<cv::aruco::Dictionary> dictionary_;
-  cv::Ptr<cv::aruco::DetectorParameters> parameters_;
-};
-
-class Apriltag : public Kind {
- public:
-  Apriltag() : family_(tag36h11_create()), detector_(apriltag_detector_create()) {
-    apriltag_detector_add_family_bits(detector_, family_, 2);
-    detector_->quad_decimate = 1.0F;  // Its default of 2 sees no small tag.
-    detector_->nthreads = 2;
-  }
-  ~Apriltag() override {
-    apriltag_detector_destroy(detector_);
-    tag36h11_destroy(family_);
-  }
-  Apriltag(const Apriltag&) = delete;
-  Apriltag& operator=(const Apriltag&) = delete;
-  std::string Name() const override { return "apriltag 36h11"; }
-  int NumIds() const override { return 100; }
-  Face FaceOf(int id) const override {
-    image_u8_t* image = apriltag_to_image(family_, static_cast<std::uint32_t>(id));
-    cv::Mat modules(8, 8, CV_8U);  // Without the white border of one module.
-    for (int y = 0; y < 8; ++y) {
-      for (int x = 0; x < 8; ++x) {
-        modules.at<std::uint8_t>(y, x) = image->buf[(y + 1) * image->stride + x + 1];
-      }
-    }
-    std::free(image->buf);
-    std::free(image);  // Debian's library does not export image_u8_destroy.
-    return ModuleFace(modules);
-  }
-  double HalfSide() const override { return 1.25; }
-  std::vector<Found> Detect(const cv::Mat& gray) const override {
-    image_u8_t image = {gray.cols, gray.rows, static_cast<int32_t>(gray.step), gray.data};
-    zarray_t* detections = apriltag_detector_detect(detector_, &image);
-    std::vector<Found> found;
-    for (int i = 0; i < zarray_size(detections); ++i) {
-      apriltag_detection_t* detection = nullptr;
-      zarray_get(detections, i, &detection);
-      // Its pixel (0, 0) begins at the origin.
-      found.push_back({detection->id, {detection->c[0] - 0.5, detection->c[1] - 0.5}});
-    }
-    apriltag_detections_destroy(detections);
-    return found;
-  }
-
- private:
-  apriltag_family_t* family_;
-  apriltag_detector_t* detector_;
-};
-
 struct Scene {
   std::string name;
   double diameter_px = 30.0;
   double min_diameter_px = 0.0;  // If not 0, diameters are drawn from here to diameter_px.
   double min_tilt_deg = 0.0;
   double max_tilt_deg = 0.0;
+  int spacing_px = 120;
   PhotoConditions conditions;
 };
 
 struct Tally {
   int num_shown = 0;
-  int num_found = 0;
-  int num_wrong = 0;
+  int num_found = 0;  // Shown ones; a marker that is given twice counts once.
+  int num_wrong = 0;  // Given where none with this ID is shown.
   std::vector<double> errors_px;
   double cpu_s = 0.0;
-  int num_photos = 0;
+  double megapixels = 0.0;
 };
 
 Camera MakeCamera() {
@@ -192,46 +58,62 @@ Camera MakeCamera() {
   return Camera("bench", 1280, 960, DistortionModel::kPlumbBob, lens);
 }
 
-void MeasurePhoto(
-    const Kind& kind, const Scene& scene, const Camera& camera, int seed, Tally* tally) {
+constexpr double kMaxErrorPx = 3.0;  // Further off it is another marker's.
+
+struct Photo {
+  cv::Mat gray;
+  std::vector<Found> truth;
+};
+
+// Markers on a grid, each placed and turned at random.
+Photo RenderScene(const Kind& kind, const Scene& scene, const Camera& camera, int seed) {
   Random random(seed);
   std::vector<PlacedFace> faces;
-  std::vector<Found> truth;
-  const int spacing_px = scene.diameter_px > 50.0 ? 240 : 120;
-  const int num_columns = camera.width_px() / spacing_px;
-  const int num_rows = camera.height_px() / spacing_px;
+  Photo photo;
+  const int num_columns = camera.width_px() / scene.spacing_px;
+  const int num_rows = camera.height_px() / scene.spacing_px;
   for (int i = 0; i < num_columns * num_rows; ++i) {
-    const Eigen::Vector2d pixel(spacing_px * (i % num_columns + 0.5 + random.Uniform(0.0, 0.05)),
-                                spacing_px * (i / num_columns + 0.5 + random.Uniform(0.0, 0.05)));
+    const Eigen::Vector2d cell(i % num_columns, i / num_columns);
+    const Eigen::Vector2d jitter(random.Uniform(0.5, 0.55), random.Uniform(0.5, 0.55));
+    const Eigen::Vector2d pixel = scene.spacing_px * (cell + jitter);
     const int id = random.Index(kind.NumIds());
-    const double tilt_rad =
-        random.Uniform(scene.min_tilt_deg, scene.max_tilt_deg + 1e-9) * M_PI / 180.0;
+    const double tilt_deg = random.Uniform(scene.min_tilt_deg, scene.max_tilt_deg + 1e-9);
     const double diameter_px = scene.min_diameter_px > 0.0
                                    ? random.Uniform(scene.min_diameter_px, scene.diameter_px)
                                    : scene.diameter_px;
-    const Rigid3 placed = PlaceMarker(
-        camera, pixel, diameter_px, tilt_rad, random.Uniform(0.0, 6.28), random.Uniform(0.0, 6.28));
-    faces.push_back({kind.FaceOf(id), placed, kind.HalfSide()});
-    truth.push_back({id, pixel});
+    const double axis_rad = random.Uniform(0.0, 2.0 * M_PI);
+    const double turn_rad = random.Uniform(0.0, 2.0 * M_PI);
+    faces.push_back(
+        {kind.FaceOf(id),
+         PlaceMarker(camera, pixel, diameter_px, tilt_deg * M_PI / 180.0, axis_rad, turn_rad),
+         kind.HalfSide()});
+    photo.truth.push_back({id, pixel});
   }
   PhotoConditions conditions = scene.conditions;
   conditions.seed = static_cast<std::uint32_t>(seed);
-  const cv::Mat gray = RenderPhoto(camera, faces, conditions);
+  photo.gray = RenderPhoto(camera, faces, conditions);
+  return photo;
+}
+
+void MeasurePhoto(const Kind& kind, const Photo& photo, Tally* tally) {
   const double before_s = CpuSeconds();
-  const std::vector<Found> found = kind.Detect(gray);
+  const std::vector<Found> found = kind.Detect(photo.gray);
   tally->cpu_s += CpuSeconds() - before_s;
-  ++tally->num_photos;
-  tally->num_shown += static_cast<int>(truth.size());
+  tally->megapixels += 1e-6 * static_cast<double>(photo.gray.total());
+  tally->num_shown += static_cast<int>(photo.truth.size());
+  std::vector<bool> is_found(photo.truth.size(), false);
   for (const Found& detection : found) {
     bool is_right = false;
-    for (const Found& marker : truth) {
-      const double error_px = (marker.center_px - detection.center_px).norm();
-      if (marker.id != detection.id || error_px > 3.0) continue;
+    for (std::size_t i = 0; i < photo.truth.size(); ++i) {
+      const double error_px = (photo.truth[i].center_px - detection.center_px).norm();
+      if (photo.truth[i].id != detection.id || error_px > kMaxErrorPx) continue;
       is_right = true;
-      tally->errors_px.push_back(error_px);
+      if (!is_found[i]) tally->errors_px.push_back(error_px);
+      is_found[i] = true;
     }
-    (is_right ? tally->num_found : tally->num_wrong) += 1;
+    if (!is_right) ++tally->num_wrong;
   }
+  tally->num_found += static_cast<int>(std::count(is_found.begin(), is_found.end(), true));
 }
 
 Json Summary(const Kind& kind, const Scene& scene, Tally tally) {
@@ -246,38 +128,40 @@ Json Summary(const Kind& kind, const Scene& scene, Tally tally) {
   };
   return {{"scene", scene.name},
           {"detector", kind.Name()},
+          {"diameter_px", scene.diameter_px},
+          {"tilt_deg", scene.max_tilt_deg},
           {"shown", tally.num_shown},
           {"rate", static_cast<double>(tally.num_found) / tally.num_shown},
           {"wrong", tally.num_wrong},
           {"mean_error_px", sum / count},
           {"p95_error_px", quantile(0.95)},
           {"max_error_px", quantile(1.0)},
-          {"cpu_s_per_megapixel", tally.cpu_s / tally.num_photos / 1.2288}};
+          {"cpu_s_per_megapixel", tally.cpu_s / tally.megapixels}};
 }
 
+Scene MakeScene(const std::string& name, double diameter_px, double tilt_deg) {
+  Scene scene;
+  scene.name = name;
+  scene.diameter_px = diameter_px;
+  scene.min_tilt_deg = scene.max_tilt_deg = tilt_deg;
+  if (diameter_px > 50.0) scene.spacing_px = 240;
+  return scene;
+}
+
+// The usual noise and blur are PhotoConditions' own.
 std::vector<Scene> Scenes() {
   std::vector<Scene> scenes;
-  for (const double diameter_px : {8.0, 10.0, 12.0, 14.0, 16.0, 20.0, 24.0, 30.0, 40.0, 80.0}) {
-    Scene scene;
-    scene.name = "frontal " + std::to_string(static_cast<int>(diameter_px)) + " px";
-    scene.diameter_px = diameter_px;
-    scenes.push_back(scene);
+  for (const double diameter_px :
+       {9.0, 10.0, 11.0, 12.0, 13.0, 14.0, 16.0, 20.0, 24.0, 30.0, 40.0, 80.0}) {
+    scenes.push_back(MakeScene("frontal", diameter_px, 0.0));
   }
   for (const double tilt_deg : {30.0, 45.0, 60.0}) {
-    for (const double diameter_px : {30.0, 40.0, 80.0}) {
-      Scene scene;
-      scene.name = "tilt " + std::to_string(static_cast<int>(tilt_deg)) + " deg, " +
-                   std::to_string(static_cast<int>(diameter_px)) + " px";
-      scene.diameter_px = diameter_px;
-      scene.min_tilt_deg = scene.max_tilt_deg = tilt_deg;
-      scenes.push_back(scene);
+    for (const double diameter_px : {24.0, 30.0, 40.0, 80.0}) {
+      scenes.push_back(MakeScene("tilted", diameter_px, tilt_deg));
     }
   }
   for (const double diameter_px : {16.0, 24.0, 30.0}) {
-    Scene scene;
-    scene.name = "blur 1.5 px, noise 5, contrast 80, " +
-                 std::to_string(static_cast<int>(diameter_px)) + " px";
-    scene.diameter_px = diameter_px;
+    Scene scene = MakeScene("blur 1.5 px, noise 5, contrast 80", diameter_px, 0.0);
     scene.conditions.blur_px = 1.5;
     scene.conditions.noise = 5.0;
     scene.conditions.black = 60.0;
@@ -296,65 +180,95 @@ void MeasureScenes(int num_markers, const Camera& camera) {
     for (const std::unique_ptr<Kind>& kind : kinds) {
       Tally tally;
       for (int photo = 0; tally.num_shown < num_markers; ++photo) {
-        MeasurePhoto(*kind, scene, camera, photo + 1, &tally);
+        MeasurePhoto(*kind, RenderScene(*kind, scene, camera, photo + 1), &tally);
       }
       std::cout << Summary(*kind, scene, tally).dump() << std::endl;
     }
   }
 }
 
-// Conditions change from photo to photo.
+// Conditions change from photo to photo. The results so far are said again and again.
 void MeasureMixed(int num_markers, const Camera& camera) {
   const CodedRings kind(nullptr);
-  Scene scene;
-  scene.name = "mixed";
+  Scene scene = MakeScene("mixed", 50.0, 70.0);
   scene.min_diameter_px = 8.0;
-  scene.diameter_px = 50.0;
-  scene.max_tilt_deg = 70.0;
+  scene.min_tilt_deg = 0.0;
+  scene.spacing_px = 80;
   scene.conditions.samples_per_axis = 4;
+  constexpr int kPhotosPerResult = 25;
   Tally tally;
   for (int photo = 0; tally.num_shown < num_markers; ++photo) {
+    if (photo % kPhotosPerResult == kPhotosPerResult - 1) {
+      std::cout << Summary(kind, scene, tally).dump() << std::endl;
+    }
     Random random(1000000 + photo);
     scene.conditions.blur_px = random.Uniform(0.4, 1.8);
     scene.conditions.noise = random.Uniform(0.5, 8.0);
     scene.conditions.black = random.Uniform(20.0, 90.0);
     scene.conditions.white = random.Uniform(scene.conditions.black + 40.0, 240.0);
     scene.conditions.background = random.Uniform(20.0, 240.0);
-    MeasurePhoto(kind, scene, camera, photo + 1, &tally);
+    MeasurePhoto(kind, RenderScene(kind, scene, camera, photo + 1), &tally);
   }
   std::cout << Summary(kind, scene, tally).dump() << std::endl;
 }
 
+// The photo and its mirror images beside it: as sharp as itself.
+cv::Mat Mosaic(const cv::Mat& gray, const cv::Size& size) {
+  cv::Mat mosaic;
+  cv::copyMakeBorder(gray,
+                     mosaic,
+                     0,
+                     std::max(0, size.height - gray.rows),
+                     0,
+                     std::max(0, size.width - gray.cols),
+                     cv::BORDER_REFLECT);
+  return mosaic(cv::Rect(0, 0, size.width, size.height));
+}
+
+struct PhotoTally {
+  int num_photos = 0;
+  double megapixels = 0.0;
+  int num_found = 0;
+  double cpu_s = 0.0;
+  double wall_s = 0.0;
+};
+
+void MeasureEmptyPhoto(const cv::Mat& gray, PhotoTally* tally) {
+  const double before_s = CpuSeconds();
+  const Stopwatch stopwatch;
+  tally->num_found += static_cast<int>(DetectMarkers({}, gray).size());
+  tally->wall_s += stopwatch.Seconds();
+  tally->cpu_s += CpuSeconds() - before_s;
+  tally->megapixels += 1e-6 * static_cast<double>(gray.total());
+  ++tally->num_photos;
+}
+
+Json Summary(const PhotoTally& tally) {
+  const double count = std::max(1, tally.num_photos);
+  return {{"photos", tally.num_photos},
+          {"megapixels", tally.megapixels / count},
+          {"found", tally.num_found},
+          {"cpu_s", tally.cpu_s / count},
+          {"wall_s", tally.wall_s / count}};
+}
+
 void MeasurePhotos(const std::string& folder) {
+  constexpr int kMaxMosaics = 8;
+  const cv::Size mosaic_size(4608, 3456);  // 16 megapixels.
   std::vector<cv::String> paths;
   cv::glob(folder, paths, true);
-  for (const double megapixels : {0.0, 16.0}) {
-    int num_photos = 0;
-    int num_found = 0;
-    double cpu_s = 0.0;
-    double wall_s = 0.0;
-    for (const cv::String& path : paths) {
-      cv::Mat gray = cv::imread(path, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
-      if (gray.empty()) continue;
-      if (megapixels > 0.0) {
-        const double scale = std::sqrt(megapixels * 1e6 / static_cast<double>(gray.total()));
-        cv::resize(gray, gray, {}, scale, scale, cv::INTER_CUBIC);
-      }
-      const double before_s = CpuSeconds();
-      const Stopwatch stopwatch;
-      num_found += static_cast<int>(DetectMarkers({}, gray).size());
-      wall_s += stopwatch.Seconds();
-      cpu_s += CpuSeconds() - before_s;
-      ++num_photos;
+  PhotoTally originals;
+  PhotoTally mosaics;
+  for (const cv::String& path : paths) {
+    const cv::Mat gray = cv::imread(path, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+    if (gray.empty()) continue;
+    MeasureEmptyPhoto(gray, &originals);
+    if (mosaics.num_photos < kMaxMosaics) {
+      MeasureEmptyPhoto(Mosaic(gray, mosaic_size), &mosaics);
     }
-    const double count = std::max(1, num_photos);
-    const Json result = {{"photos", num_photos},
-                         {"megapixels", megapixels},
-                         {"found", num_found},
-                         {"cpu_s", cpu_s / count},
-                         {"wall_s", wall_s / count}};
-    std::cout << result.dump() << std::endl;
   }
+  const Json result = {{"originals", Summary(originals)}, {"mosaics", Summary(mosaics)}};
+  std::cout << result.dump() << std::endl;
 }
 
 }  // namespace

@@ -52,6 +52,18 @@ TEST(MarkerCodebook, CorrectsEveryOneBitErrorAndNoticesEveryTwoAtEveryRotation) 
   }
 }
 
+TEST(MarkerCodebook, TheMirrorImageOfACodeIsItselfOrNone) {
+  const MarkerCodebook& codebook = MarkerCodebook::Get();
+  for (int id = 0; id < codebook.size(); ++id) {
+    std::uint32_t mirrored = 0;
+    for (int i = 0; i < kNumCodeBits; ++i) {
+      if (((codebook.Word(id) >> i) & 1U) != 0) mirrored |= 1U << (kNumCodeBits - 1 - i);
+    }
+    const auto match = codebook.Find(mirrored);
+    EXPECT_TRUE(!match || match->id == id);
+  }
+}
+
 TEST(MarkerCodebook, RotatingAllTheWayGivesTheWordBack) {
   EXPECT_EQ(RotateWord(0x155, kNumCodeBits), 0x155U);
   EXPECT_EQ(RotateWord(RotateWord(0x1F0F, 5), kNumCodeBits - 5), 0x1F0FU);

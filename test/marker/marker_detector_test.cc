@@ -29,6 +29,23 @@ struct Shown {
   Eigen::Vector2d center_px;
 };
 
+// A photo just large enough for one marker: what is done to it is tried many times.
+const Eigen::Vector2d kOnlyCenter(80.3, 60.6);
+
+cv::Mat OnlyMarker(int id, std::uint32_t seed) {
+  LensParameters<double> lens{};
+  lens[kFx] = lens[kFy] = 800.0;
+  lens[kCx] = 79.5;
+  lens[kCy] = 59.5;
+  const Camera camera("test", 160, 120, DistortionModel::kPlumbBob, lens);
+  PhotoConditions conditions;
+  conditions.samples_per_axis = 3;
+  conditions.seed = seed;
+  return RenderPhoto(camera,
+                     {{MarkerFace(id), PlaceMarker(camera, kOnlyCenter, 60.0, 0.3, 1.0, 2.0)}},
+                     conditions);
+}
+
 // A grid of 5 x 4 markers.
 struct Scene {
   std::vector<PlacedFace> faces;
@@ -49,14 +66,6 @@ Scene MakeScene(const Camera& camera, double diameter_px, double tilt_rad, int s
     scene.truth.push_back({id, pixel});
   }
   return scene;
-}
-
-cv::Mat OneMarker(int id, const PhotoConditions& conditions, double diameter_px = 40.0) {
-  const Camera camera = MakeCamera();
-  return RenderPhoto(
-      camera,
-      {{MarkerFace(id), PlaceMarker(camera, {320.3, 240.6}, diameter_px, 0.3, 1.0, 2.0)}},
-      conditions);
 }
 
 // Mean error of the right ones [px]; each shown marker must be found and no other.
@@ -111,7 +120,7 @@ TEST(DetectMarkers, ItsCovarianceIsThatOfItsErrors) {
   const Camera camera = MakeCamera();
   double sum = 0.0;
   int count = 0;
-  for (int seed = 1; seed <= 10; ++seed) {
+  for (int seed = 1; seed <= 6; ++seed) {
     const Scene scene = MakeScene(camera, 24.0, 0.3, seed);
     PhotoConditions conditions;
     conditions.noise = 4.0;
@@ -126,8 +135,9 @@ TEST(DetectMarkers, ItsCovarianceIsThatOfItsErrors) {
       }
     }
   }
-  ASSERT_GE(count, 190);
-  EXPECT_NEAR(sum / count, 2.0, 0.7);  // Chi-square of two degrees of freedom.
+  ASSERT_GE(count, 114);
+  // Chi-square of two degrees of freedom; of 120 the mean has a standard deviation of 0.18.
+  EXPECT_NEAR(sum / count, 2.0, 0.7);
 }
 
 TEST(DetectMarkers, TheHomographyTellsWhereTheMarkersPointsAre) {
@@ -172,22 +182,31 @@ TEST(DetectMarkers, AMarkerThatIsThereTwiceIsFoundTwice) {
   EXPECT_EQ(detections[1].id, 9);
 }
 
+TEST(DetectMarkers, AnUntouchedOnlyMarkerIsFound) {  // Without which the tests below say nothing.
+  for (std::uint32_t seed = 0; seed < 10; ++seed) {
+    const int id = Random(static_cast<int>(seed)).Index(MarkerCodebook::Get().size());
+    const std::vector<MarkerDetection> detections = DetectMarkers({}, OnlyMarker(id, seed));
+    ASSERT_EQ(detections.size(), 1U);
+    EXPECT_EQ(detections[0].id, id);
+  }
+}
+
 TEST(DetectMarkers, APartlyHiddenMarkerIsRightOrAbsent) {
   for (int i = 0; i < 60; ++i) {
     Random random(i);
     const int id = random.Index(MarkerCodebook::Get().size());
-    cv::Mat gray = OneMarker(id, {}, 60.0);
+    cv::Mat gray = OnlyMarker(id, static_cast<std::uint32_t>(i));
     const double angle_rad = random.Uniform(0.0, 6.28);
     const double distance_px = random.Uniform(5.0, 60.0);
     cv::circle(gray,
-               {320 + static_cast<int>(distance_px * std::cos(angle_rad)),
-                240 + static_cast<int>(distance_px * std::sin(angle_rad))},
+               {80 + static_cast<int>(distance_px * std::cos(angle_rad)),
+                60 + static_cast<int>(distance_px * std::sin(angle_rad))},
                8 + random.Index(20),
                cv::Scalar(random.Uniform(0.0, 255.0)),
                cv::FILLED);
     for (const MarkerDetection& detection : DetectMarkers({}, gray)) {
       EXPECT_EQ(detection.id, id);
-      EXPECT_LT((detection.center_px - Eigen::Vector2d(320.3, 240.6)).norm(), 0.5);
+      EXPECT_LT((detection.center_px - kOnlyCenter).norm(), 0.5);
     }
   }
 }
@@ -196,13 +215,23 @@ TEST(DetectMarkers, AReflectionAcrossAMarkerYieldsTheRightIdOrNone) {
   for (int i = 0; i < 40; ++i) {
     Random random(i);
     const int id = random.Index(MarkerCodebook::Get().size());
-    const cv::Mat gray = OneMarker(id, {}, 60.0);
+    const cv::Mat gray = OnlyMarker(id, static_cast<std::uint32_t>(i));
     cv::Mat glare(gray.size(), CV_8U, cv::Scalar(0));
-    const int x = 290 + random.Index(60);
-    cv::line(glare, {x, 150}, {640 - x, 330}, cv::Scalar(200), 4 + random.Index(20));
+    const int x = 50 + random.Index(60);
+    cv::line(glare, {x, -30}, {160 - x, 150}, cv::Scalar(200), 4 + random.Index(20));
     cv::GaussianBlur(glare, glare, {0, 0}, 4.0);
     for (const MarkerDetection& detection : DetectMarkers({}, gray + glare)) {
       EXPECT_EQ(detection.id, id);
+    }
+  }
+}
+
+TEST(DetectMarkers, AMarkerInAMirrorIsNoOtherMarker) {
+  for (int id = 0; id < MarkerCodebook::Get().size(); id += 3) {
+    cv::Mat mirrored;
+    cv::flip(OnlyMarker(id, static_cast<std::uint32_t>(id)), mirrored, 1);
+    for (const MarkerDetection& detection : DetectMarkers({}, mirrored)) {
+      EXPECT_EQ(detection.id, id);  // Some codes are their own mirror images.
     }
   }
 }
@@ -223,7 +252,7 @@ TEST(DetectMarkers, SurvivesStrongVignetting) {
 }
 
 TEST(DetectMarkers, AMarkerOfNegativeContrastIsNone) {
-  EXPECT_THAT(DetectMarkers({}, 255 - OneMarker(3, {})), testing::IsEmpty());
+  EXPECT_THAT(DetectMarkers({}, 255 - OnlyMarker(3, 1)), testing::IsEmpty());
 }
 
 TEST(DetectMarkers, FindsNothingInNoiseInBlankPhotosAndInTinyOnes) {
@@ -236,10 +265,10 @@ TEST(DetectMarkers, FindsNothingInNoiseInBlankPhotosAndInTinyOnes) {
 }
 
 TEST(DetectMarkers, AMarkerAcrossTheEdgeOfThePhotoDoesNoHarm) {
-  const cv::Mat gray = OneMarker(11, {}, 60.0);
-  for (int cut = 285; cut < 355; cut += 3) {
+  const cv::Mat gray = OnlyMarker(11, 1);
+  for (int cut = 45; cut < 115; cut += 3) {
     for (const MarkerDetection& detection :
-         DetectMarkers({}, gray(cv::Rect(cut, 0, 640 - cut, 480)).clone())) {
+         DetectMarkers({}, gray(cv::Rect(cut, 0, 160 - cut, 120)).clone())) {
       EXPECT_EQ(detection.id, 11);
     }
   }

@@ -8,6 +8,7 @@
 #include "ros/camera_conversion.h"
 #include "ros/geometry_conversion.h"
 #include "ros/map_conversion.h"
+#include "ros/marker_conversion.h"
 #include "ros/photo_conversion.h"
 #include "ros/verdict_conversion.h"
 
@@ -180,6 +181,67 @@ TEST(VerdictMsg, RefusesUnknownWordsNanAndCountsBeyondInt) {
   msg = good;
   msg.num_inliers = 4'000'000'000U;
   EXPECT_FALSE(FromVerdictMsg(msg));
+}
+
+MarkerDetection MakeDetection() {
+  MarkerDetection detection;
+  detection.id = 20;
+  detection.center_px = {1000.0 / 3.0, 77.25};
+  detection.center_covariance_px2 << 4e-4, 1e-4, 1e-4, 9e-4;
+  detection.ellipse.center_px = {333.5, 77.5};
+  detection.ellipse.semi_major_px = 12.5;
+  detection.ellipse.semi_minor_px = 10.25;
+  detection.ellipse.angle_rad = 1.5;
+  detection.pixel_from_marker << 12.0, -3.0, 333.3, 2.0, 10.0, 77.25, 0.01, -0.02, 1.0;
+  detection.probability = 0.99999;
+  detection.explained = 0.97;
+  detection.num_corrected_bits = 2;
+  return detection;
+}
+
+TEST(MarkerDetectionMsg, RoundTripKeepsAllToTheLastBit) {
+  const MarkerDetection detection = MakeDetection();
+  plumbline::MarkerDetectionArray msg;
+  msg.detections = {ToMarkerDetectionMsg(detection)};
+  EXPECT_EQ(msg.detections[0].pixel_from_marker[2], 333.3);  // Row by row.
+  const auto back = FromMarkerDetectionsMsg(msg);
+  ASSERT_TRUE(back);
+  ASSERT_EQ(back->size(), 1U);
+  const MarkerDetection& read = back->front();
+  EXPECT_EQ(read.id, detection.id);
+  EXPECT_EQ(read.center_px, detection.center_px);
+  EXPECT_EQ(read.center_covariance_px2, detection.center_covariance_px2);
+  EXPECT_EQ(read.ellipse.center_px, detection.ellipse.center_px);
+  EXPECT_EQ(read.ellipse.semi_major_px, detection.ellipse.semi_major_px);
+  EXPECT_EQ(read.ellipse.semi_minor_px, detection.ellipse.semi_minor_px);
+  EXPECT_EQ(read.ellipse.angle_rad, detection.ellipse.angle_rad);
+  EXPECT_EQ(read.pixel_from_marker, detection.pixel_from_marker);
+  EXPECT_EQ(read.probability, detection.probability);
+  EXPECT_EQ(read.explained, detection.explained);
+  EXPECT_EQ(read.num_corrected_bits, detection.num_corrected_bits);
+}
+
+TEST(MarkerDetectionMsg, RefusesWhatNoDetectorSays) {
+  const auto refuses = [](auto spoil) {
+    plumbline::MarkerDetection msg = ToMarkerDetectionMsg(MakeDetection());
+    spoil(msg);
+    return !FromMarkerDetectionMsg(msg);
+  };
+  EXPECT_FALSE(refuses([](auto&) {}));
+  EXPECT_TRUE(refuses([](auto& msg) { msg.id = 106; }));
+  EXPECT_TRUE(refuses([](auto& msg) { msg.id = 4'000'000'000U; }));
+  EXPECT_TRUE(refuses([](auto& msg) { msg.num_corrected_bits = 18; }));
+  EXPECT_TRUE(refuses([](auto& msg) { msg.center_px[1] = kNan; }));
+  EXPECT_TRUE(refuses([](auto& msg) { msg.center_covariance_px2[0] = 0.0; }));
+  EXPECT_TRUE(refuses([](auto& msg) { msg.center_covariance_px2[1] = 1.0; }));
+  EXPECT_TRUE(refuses([](auto& msg) { msg.semi_minor_px = -1.0; }));
+  EXPECT_TRUE(refuses([](auto& msg) { msg.semi_minor_px = 13.0; }));
+  EXPECT_TRUE(refuses([](auto& msg) { msg.pixel_from_marker[8] = kNan; }));
+  EXPECT_TRUE(refuses([](auto& msg) { msg.probability = 1.5; }));
+  plumbline::MarkerDetectionArray array;
+  array.detections.resize(2);
+  array.detections[0] = ToMarkerDetectionMsg(MakeDetection());
+  EXPECT_FALSE(FromMarkerDetectionsMsg(array));  // The other is a default message.
 }
 
 TEST(CameraInfoMsg, RoundTripKeepsBothLensModels) {

@@ -6,9 +6,11 @@
 #include <cstring>
 #include <opencv2/imgcodecs.hpp>
 
+#include "ros/annotated_markers.h"
 #include "ros/annotated_photo.h"
 #include "ros/latency.h"
 #include "ros/map_drawing.h"
+#include "ros/picture_banner.h"
 
 namespace plumb::ros_adapter {
 namespace {
@@ -152,6 +154,48 @@ TEST(DrawAnnotatedPhoto, ShowsTheVerdictOfWhatIsNoPhoto) {
 
 TEST(DrawAnnotatedPhoto, NeverEnlarges) {
   EXPECT_EQ(DrawAnnotatedPhoto({}, PhotoVerdict(), {}, 640, 480, 1280).cols, 640);
+}
+
+MarkerDetection MakeMarker(int id, const Eigen::Vector2d& center_px) {
+  MarkerDetection marker;
+  marker.id = id;
+  marker.center_px = marker.ellipse.center_px = center_px;
+  marker.ellipse.semi_major_px = 80.0;
+  marker.ellipse.semi_minor_px = 40.0;
+  return marker;
+}
+
+TEST(DrawAnnotatedMarkers, OutlinesMarkersWhereTheyAreAndThoseThatAreThereTwiceInYellow) {
+  MarkerSearch search;
+  search.gray = cv::Mat(1200, 1600, CV_8U, cv::Scalar(128));
+  search.detections = {MakeMarker(3, {400.5, 300.5}),
+                       MakeMarker(9, {1200.5, 300.5}),
+                       MakeMarker(9, {1200.5, 900.5})};
+  const cv::Mat picture = DrawAnnotatedMarkers(search, "a.jpg", 800);
+  ASSERT_EQ(picture.cols, 800);
+  const int banner = picture.rows - 600;
+  ASSERT_GT(banner, 30);
+  const cv::Vec3b once = picture.at<cv::Vec3b>(banner + 150, 200 - 40);
+  EXPECT_GT(once[1], once[2] + 100);  // Green.
+  const cv::Vec3b twice = picture.at<cv::Vec3b>(banner + 450 - 20, 600);
+  EXPECT_GT(twice[2], twice[0] + 100);  // Yellow.
+  EXPECT_EQ(picture.at<cv::Vec3b>(banner + 300, 400), cv::Vec3b(128, 128, 128));
+}
+
+TEST(DrawAnnotatedMarkers, TellsWhyAPhotoWasNotSearched) {
+  MarkerSearch search;
+  search.problem = "the file is empty";
+  const cv::Mat picture = DrawAnnotatedMarkers(search, "a.jpg", 800);
+  EXPECT_EQ(picture.cols, 800);
+  const cv::Vec3b bar = picture.at<cv::Vec3b>(2, 2);
+  EXPECT_GT(bar[2], bar[1] + 100);  // Red.
+}
+
+TEST(DrawAnnotatedMarkers, TakesEverythingThatAMessageMayHold) {
+  MarkerSearch search;
+  search.gray = cv::Mat(1, 1, CV_8U, cv::Scalar(0));
+  for (int id = 0; id < 106; ++id) search.detections.push_back(MakeMarker(id, {1e7, -1e7}));
+  EXPECT_EQ(DrawAnnotatedMarkers(search, "", 800).cols, 1);
 }
 
 TEST(WrapText, BreaksAtBlanksAndKeepsEveryWord) {

@@ -67,6 +67,9 @@ class Heard:
                                      f"{len(self._messages)} messages")
             return list(self._messages)
 
+    def is_connected(self):
+        return self._subscriber.get_num_connections() > 0
+
     def close(self):
         self._subscriber.unregister()
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -42,6 +44,19 @@ struct PhotoConditions {
   std::uint32_t seed = 1;    // Of the noise.
 };
 
+// Derivative of raw pixels by the plane of a marker, at its centre.
+inline Eigen::Matrix2d PixelByMarker(const Camera& camera, const Rigid3& cam_from_marker) {
+  constexpr double kStep = 1e-4;
+  Eigen::Matrix2d derivative;
+  for (int i = 0; i < 2; ++i) {
+    const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(i);
+    derivative.col(i) =
+        (*camera.Project(cam_from_marker * step) - *camera.Project(cam_from_marker * -step)) /
+        (2.0 * kStep);
+  }
+  return derivative;
+}
+
 // Camera from a marker of radius 1 that is seen at `pixel` with a diameter (along its major axis,
 // to first order) of `diameter_px`, tilted about an axis at `axis_rad` in the image, and turned.
 inline Rigid3 PlaceMarker(const Camera& camera,
@@ -50,14 +65,18 @@ inline Rigid3 PlaceMarker(const Camera& camera,
                           double tilt_rad,
                           double axis_rad,
                           double turn_rad) {
-  const Eigen::Vector2d ray = *camera.Unproject(pixel);
-  const double depth = camera.MeanFocalLength() * 2.0 / diameter_px;
+  const Eigen::Vector3d ray = camera.Unproject(pixel)->homogeneous();
   const Eigen::Vector3d axis(std::cos(axis_rad), std::sin(axis_rad), 0.0);
   const Eigen::Quaterniond towards =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), ray.homogeneous());
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), ray);
   const Eigen::Quaterniond rotation = towards * Eigen::AngleAxisd(tilt_rad, axis) *
                                       Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitZ());
-  return Rigid3{rotation, depth * ray.homogeneous()};
+  const double depth = camera.MeanFocalLength() * 2.0 / diameter_px;
+  // Size falls with depth; a wide lens shows it larger towards the photo's corners.
+  const Eigen::JacobiSVD<Eigen::Matrix2d> axes(
+      PixelByMarker(camera, Rigid3{rotation, depth * ray}));
+  const double seen_px = 2.0 * axes.singularValues()(0);
+  return Rigid3{rotation, depth * seen_px / diameter_px * ray};
 }
 
 // Draws one plate into a float image: every pixel the mean over its area.

@@ -10,6 +10,7 @@
 #include "plumbline/simulation/facade.h"
 #include "plumbline/simulation/flight_options.h"
 #include "plumbline/simulation/laser_scan.h"
+#include "plumbline/simulation/marker_floor.h"
 #include "plumbline/simulation/navigation.h"
 #include "plumbline/simulation/renderer.h"
 #include "plumbline/simulation/sensor_options.h"
@@ -69,6 +70,8 @@ struct Scenario {
   std::uint32_t seed = 1;  // Of the flight and all noise; the facade has a seed of its own.
   int samples_per_axis = 2;
   FacadeOptions facade;
+  // With photos of it, they are all that is taken: there is no facade, no flight and no laser scan.
+  MarkerFloorOptions floor;
   Light light;
   LensOptions lens;
   SensorOptions sensor;
@@ -86,6 +89,7 @@ void VisitFields(Scenario& scenario, Visitor&& visit) {
   visit("seed", scenario.seed);
   visit("samples_per_axis", scenario.samples_per_axis);
   visit("facade", scenario.facade);
+  visit("floor", scenario.floor);
   visit("light", scenario.light);
   visit("lens", scenario.lens);
   visit("sensor", scenario.sensor);

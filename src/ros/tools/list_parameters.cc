@@ -4,13 +4,17 @@
 #include <iostream>
 
 #include "plumbline/map/run_report.h"
+#include "ros/calibrator_ros_options.h"
 #include "ros/camera_ingest_options.h"
 #include "ros/mapper_ros_options.h"
+#include "ros/marker_detector_ros_options.h"
 
 int main() {
   nlohmann::ordered_json nodes;
+  nodes["calibrator"] = plumb::OptionsToJson(plumb::ros_adapter::CalibratorRosOptions());
   nodes["camera_ingest"] = plumb::OptionsToJson(plumb::ros_adapter::CameraIngestOptions());
   nodes["mapper"] = plumb::OptionsToJson(plumb::ros_adapter::MapperRosOptions());
+  nodes["marker_detector"] = plumb::OptionsToJson(plumb::ros_adapter::MarkerDetectorRosOptions());
   std::cout << nodes.dump(1) << '\n';
   return 0;
 }

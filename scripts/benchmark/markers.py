@@ -1,0 +1,138 @@
+# SPDX-FileCopyrightText: 2026 The Plumbline authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Section: the marker detector on rendered markers with known truth, beside ArUco and apriltag, and on
+photos without markers.
+
+The figures are those of test/benchmark/marker_benchmark.cc. Diameters are those of the outer circle
+or, of the square markers, their outer side.
+"""
+import json
+import subprocess
+
+from benchmark.measure import log
+from benchmark.programs import built_benchmark
+from benchmark.scenes import find_scenes
+from benchmark.tables import number, print_table
+
+NUM_PER_SCENE, NUM_MIXED = 1000, 100000
+QUICK_PER_SCENE, QUICK_MIXED = 160, 4000
+OURS = "plumbline"
+SEEN_RATE = 0.9  # From which rate on a size counts as seen.
+
+
+def add_arguments(_):
+    """--quick is that of the scenarios."""
+
+
+def measure(program, *arguments):
+    """One dictionary a line that the program prints."""
+    log("marker_benchmark " + " ".join(arguments))
+    done = subprocess.run([program, *arguments], capture_output=True, text=True)
+    if done.returncode != 0:
+        raise RuntimeError("marker_benchmark %s: %s" % (" ".join(arguments), done.stderr.strip()))
+    return [json.loads(line) for line in done.stdout.splitlines()]
+
+
+def run(arguments):
+    program = built_benchmark("marker_benchmark")
+    per_scene, mixed = ((QUICK_PER_SCENE, QUICK_MIXED) if arguments.quick
+                        else (NUM_PER_SCENE, NUM_MIXED))
+    results = {"photos": {}, "failures": []}
+    results["scenes"] = measure(program, "scenes", str(per_scene))
+    for scene in find_scenes(arguments.data, None):
+        results["photos"][scene.name] = measure(program, "photos", scene.photos)[0]
+    results["mixed"] = measure(program, "mixed", str(mixed))[-1]
+    results["figures"] = figures(results)
+    results["failures"] += ["markers: %s: %s, but must be %s" % (name, shown, bound)
+                            for name, bound, shown, is_met in results["figures"]
+                            if not is_met and "seconds" not in name]
+    return results
+
+
+def ours(results, name):
+    return [row for row in results["scenes"]
+            if row["detector"] == OURS and row["scene"] == name]
+
+
+def smallest_size(results, detector):
+    """Of frontal markers, from which on all sizes are seen; None if not even the largest is."""
+    smallest = None
+    rows = [row for row in results["scenes"]
+            if row["detector"] == detector and row["scene"] == "frontal"]
+    for row in sorted(rows, key=lambda row: -row["diameter_px"]):
+        if row["rate"] < SEEN_RATE:
+            return smallest
+        smallest = row["diameter_px"]
+    return smallest
+
+
+def figures(results):
+    """Name, bound, what was measured, and whether that meets it."""
+    frontal, tilted = ours(results, "frontal"), ours(results, "tilted")
+    others = sorted({row["detector"] for row in results["scenes"]} - {OURS})
+    large = min(row["rate"] for row in frontal if row["diameter_px"] >= 24)
+    small = min(row["rate"] for row in frontal if row["diameter_px"] == 16)
+    steep = min(row["rate"] for row in tilted if row["tilt_deg"] == 60 and row["diameter_px"] >= 40)
+    error_px = max(row["mean_error_px"] for row in frontal + tilted if row["diameter_px"] == 30)
+    wrong = results["mixed"]["wrong"] + sum(row["wrong"] for row in results["scenes"]
+                                            if row["detector"] == OURS)
+    photos = results["photos"].values()
+    false = sum(photo[kind]["found"] for photo in photos for kind in ("originals", "mosaics"))
+    cpu_s = [photo["mosaics"]["cpu_s"] for photo in photos]
+    sizes = {name: smallest_size(results, name) for name in [OURS] + others}
+    ratios = [row["mean_error_px"] / ours_row["mean_error_px"] for ours_row, row in same_scenes(results)]
+    return [
+        ["found of frontal markers of 24 px and more", ">= 99.9 %", percent(large), large >= 0.999],
+        ["found of frontal markers of 16 px", ">= 90 %", percent(small), small >= 0.9],
+        ["found of those tilted by 60 deg, 40 px and more", ">= 99 %", percent(steep),
+         steep >= 0.99],
+        ["wrong IDs of %d rendered markers" % results["mixed"]["shown"], "0", str(wrong),
+         wrong == 0],
+        ["markers seen in %d photos without" % sum(p["originals"]["photos"] for p in photos), "0",
+         str(false), false == 0],
+        ["worst mean centre error at 30 px, up to 60 deg [px]", "<= 0.05", number(error_px, 3),
+         error_px <= 0.05],
+        ["least centre error of the others over ours, same scene", "> 1", number(min(ratios)),
+         min(ratios) > 1.0],
+        ["smallest frontal size of which 90 % are seen [px]",
+         "below " + ", ".join("%g of %s" % (sizes[name], name) for name in others),
+         "%g" % sizes[OURS], all(sizes[OURS] < sizes[name] for name in others)],
+        ["CPU seconds for 16 megapixels, over two cores, mean of the scenes", "<= 0.25",
+         number(sum(cpu_s) / len(cpu_s) / 2.0, 3), sum(cpu_s) / len(cpu_s) / 2.0 <= 0.25]]
+
+
+def same_scenes(results):
+    """Our result with that of each other detector, where both see most markers of the scene."""
+    pairs = []
+    for row in results["scenes"]:
+        for ours_row in results["scenes"]:
+            is_same = all(row[key] == ours_row[key] for key in ("scene", "diameter_px", "tilt_deg"))
+            if is_same and ours_row["detector"] == OURS != row["detector"] and \
+                    min(row["rate"], ours_row["rate"]) >= SEEN_RATE:
+                pairs.append((ours_row, row))
+    return pairs
+
+
+def percent(share):
+    return "%.2f %%" % (100.0 * share)
+
+
+def print_results(results):
+    rows = [[row["scene"], "%g" % row["diameter_px"], "%g" % row["tilt_deg"], row["detector"],
+             percent(row["rate"]), row["wrong"], number(row["mean_error_px"], 3),
+             number(row["p95_error_px"], 3), number(row["max_error_px"], 3),
+             number(row["cpu_s_per_megapixel"], 3)]
+            for row in results["scenes"] + [results["mixed"]]]
+    print_table("Markers: rendered with known truth; errors are the centre's",
+                ["scene", "px", "tilt deg", "detector", "found", "wrong", "mean px", "95 % px",
+                 "max px", "CPU s/MP"], rows)
+    rows = []
+    for scene, kinds in results["photos"].items():
+        for kind, row in kinds.items():
+            rows.append([scene, kind, row["photos"], number(row["megapixels"], 1), row["found"],
+                         number(row["cpu_s"], 3), number(row["wall_s"], 3)])
+    print_table("Markers: photos without any; mosaics: a photo and its mirror images",
+                ["scene", "", "photos", "MP", "seen", "CPU s", "wall s"], rows)
+    print_table("Markers: what is asked", ["figure", "asked", "measured", ""],
+                [[name, bound, shown, "" if is_met else "MISSED"]
+                 for name, bound, shown, is_met in results["figures"]])
