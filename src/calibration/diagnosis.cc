@@ -100,7 +100,15 @@ class Diagnosis {
     for (std::size_t i = 0; i < solution_.is_marker_out.size(); ++i) {
       if (solution_.is_marker_out[i] == 0) continue;
       const MarkerPlaces places = FindMarkerPlaces(solution_, static_cast<int>(i));
-      if (places.elsewhere_photos.empty()) continue;
+      if (places.elsewhere_photos.empty()) {
+        Add({Kind::kWrongView,
+             is_serious,
+             NameMarkers({intake_.marker_ids[i]}) +
+                 " fits in with the others nowhere: covered, crumpled or mirrored. Left out.",
+             {intake_.marker_ids[i]},
+             {}});
+        continue;
+      }
       const std::vector<std::string> names = NamesOf(places.elsewhere_photos);
       Add({Kind::kMoved,
            is_serious,
@@ -230,8 +238,10 @@ class Diagnosis {
     if (percent < kUnclearFocalPercent && rise > kMinRise && !is_outside) return;
     Add({Kind::kFocalUnclear,
          true,
-         "the photos tell the focal length only to " + Number(percent, 1) +
-             " %. Take photos from the side, tilted by 30 to 45 degrees, in several directions.",
+         (percent < kUnclearFocalPercent
+              ? std::string("the error over the focal length has no clear minimum")
+              : "the photos tell the focal length only to " + Number(percent, 1) + " %") +
+             ". Take photos from the side, tilted by 30 to 45 degrees, in several directions.",
          {},
          {}});
   }

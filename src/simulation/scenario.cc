@@ -63,7 +63,9 @@ std::vector<std::string> Scenario::Problems() const {
   problems.Append("lens", lens.Problems());
   problems.Append("sensor", sensor.Problems());
   problems.Append("navigation", navigation.Problems());
-  problems.Append("flight", flight.Problems());
+  FlightOptions flown = flight;
+  if (floor.num_photos > 0 && flown.legs.empty()) flown.legs.emplace_back();  // None is flown.
+  problems.Append("flight", flown.Problems());
   problems.Append("survey", survey.Problems());
   problems.Append("laser", laser.Problems());
   return problems.Take();

@@ -53,7 +53,8 @@ TEST(CenterShift, IsWhatADetectorWithoutTheLensSees) {
   const Rigid3 cam_from_plane(cam_from_face.rotation, 0.5 * cam_from_face.translation);
   const Eigen::Vector2d shift = CenterShift({}, OneMarker(camera, cam_from_plane));
   EXPECT_GT(seen.norm(), 0.1);
-  EXPECT_LT((seen - shift).norm(), 0.2 * seen.norm());
+  // The code of this marker has its borders elsewhere than an average one.
+  EXPECT_LT((seen - shift).norm(), 0.4 * seen.norm());
 }
 
 }  // namespace

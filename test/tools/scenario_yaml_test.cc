@@ -38,7 +38,10 @@ TEST(ReadScenario, EveryShippedOneIsSoundAndReadsBackFromItsJson) {
     SCOPED_TRACE(entry.path());
     const Scenario scenario = ReadScenario(entry.path());
     EXPECT_FALSE(scenario.description.empty());
-    EXPECT_FALSE(PlanFlight(scenario.flight, MakeTrueCamera(scenario.lens), Building(), 1).empty());
+    if (scenario.floor.num_photos == 0) {
+      const Camera camera = MakeTrueCamera(scenario.lens);
+      EXPECT_FALSE(PlanFlight(scenario.flight, camera, Building(), 1).empty());
+    }
     EXPECT_NE(ToCameraYaml(MakeWrongCamera(scenario.lens)),
               ToCameraYaml(MakeTrueCamera(scenario.lens)));
     const std::string json = ToJson(scenario).dump();
