@@ -47,7 +47,7 @@ void PhotoView::Show(std::shared_ptr<const CalibratorView> view, const QString& 
 void PhotoView::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHints(QPainter::Antialiasing | QPainter::SmoothPixmapTransform);
-  const int caption_px = 5 * LetterHeight_px(*this) / 2;
+  const int caption_px = view_ ? 5 * LetterHeight_px(*this) / 2 : 0;
   const QRect area = rect().adjusted(0, 0, 0, -caption_px);
   painter.fillRect(area, QColor(40, 40, 40));
   if (!image_.isNull()) {

@@ -137,10 +137,11 @@ void LiveCalibrator::Collect(const cv::Mat& gray,
   const bool has_enough = static_cast<int>(counts.size()) >= options_.views.min_markers;
   const CalibrationProgress progress =
       collector_.Add({view->name, gray.cols, gray.rows, std::move(markers), false});
-  view->is_taken = true;
+  view->is_taken = has_enough && progress.coverage.width_px == gray.cols &&
+                   progress.coverage.height_px == gray.rows;
   view->note = progress.last_photo_note;
   for (SeenMarker& marker : view->markers) {
-    marker.is_used = has_enough && counts[marker.id] == 1 && IsCounted(marker.id);
+    marker.is_used = view->is_taken && counts[marker.id] == 1 && IsCounted(marker.id);
   }
   Update([&] {
     state_.progress = progress;

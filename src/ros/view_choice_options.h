@@ -29,7 +29,7 @@ struct ViewChoiceOptions {
   // ... or their pattern has changed by this share of its size, by distance, tilt or turn.
   double min_shape_change = 0.1;
 
-  // So many are taken; each further one makes the estimate slower and hardly better.
+  // So many are taken; each further one makes the estimate slower.
   int max_views = 80;
 
   // One message per violated bound; empty if the options are usable.

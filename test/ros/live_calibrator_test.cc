@@ -171,7 +171,9 @@ TEST_F(LiveCalibratorTest, APhotoOfAnotherSizeIsToldAndCountsNot) {
   TakePhotos(3);
   cv::Mat cropped = Photos()[3](cv::Rect(0, 0, 800, 600)).clone();
   calibrator_->TakePhoto("small.png", Encode(cropped));
-  EXPECT_THAT(WaitForView(4).note, HasSubstr("small.png"));
+  const CalibratorView view = WaitForView(4);
+  EXPECT_THAT(view.note, HasSubstr("small.png"));
+  EXPECT_FALSE(view.is_taken);
   EXPECT_EQ(calibrator_->state().progress.coverage.num_photos, 3);
 }
 

@@ -28,8 +28,8 @@ struct CalibrationOptions {
   // Range and number of the focal lengths that are tried one by one, as shares of the photo's
   // width, evenly spaced on a logarithmic scale: 118 to 11 degrees of view.
   double min_focal_per_width = 0.3;
-  double max_focal_per_width = 5.0;
-  int num_focal_steps = 48;
+  double max_focal_per_width = 5.0;  // The largest one.
+  int num_focal_steps = 48;          // So many are tried.
 
   // Added to the covariance of every centre [px]: what the detector does not know of, such as
   // uneven light and the printer.
@@ -48,8 +48,8 @@ struct CalibrationOptions {
   // What counts as good: standard deviations of the focal length, of the principal point, and of
   // the distortion (LensEstimate::distortion_sigma_px).
   double max_focal_sigma_percent = 0.05;
-  double max_principal_sigma_px = 1.0;
-  double max_distortion_sigma_px = 0.1;
+  double max_principal_sigma_px = 1.0;   // Of the principal point.
+  double max_distortion_sigma_px = 0.1;  // Of the distortion.
 
   // Threads of the solver; 0: one for each core. Does not change the result but for rounding.
   int num_threads = 0;
