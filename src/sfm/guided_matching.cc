@@ -6,20 +6,14 @@
 #include "plumbline/common/check.h"
 #include "plumbline/geometry/absolute_pose.h"
 #include "plumbline/matching/descriptor_matcher.h"
+#include "sfm/likeness.h"
 #include "sfm/localizer.h"
 
 namespace plumb {
 namespace {
 
-// Squared distance of 8-bit RootSIFT (norm 512) above which two features are not taken for
-// the same even where geometry puts them in one place.
-constexpr std::int32_t kMaxSquaredDistance = 240 * 240;
-
 // Lowe's ratio, squared, against the second-best feature within the search radius.
 constexpr double kMaxSquaredRatio = 0.8 * 0.8;
-
-// A landmark's feature size grows as the camera comes nearer; SIFT finds it within this factor.
-constexpr double kMaxScaleRatio = 1.6;
 
 struct PredictedLandmark {
   LandmarkId id;
@@ -87,8 +81,7 @@ class GuidedMatcher {
     std::int32_t second = 2 * kMaxSquaredDistance;
     std::optional<std::uint32_t> best_idx;
     for (const std::uint32_t idx : nearby_) {
-      const double ratio = photo_.features->features[idx].scale_px / predicted.scale_px;
-      if (ratio > kMaxScaleRatio || ratio < 1.0 / kMaxScaleRatio) continue;
+      if (!IsScaleAlike(photo_.features->features[idx].scale_px, predicted.scale_px)) continue;
       const std::int32_t distance =
           SquaredDistance(predicted.descriptor,
                           photo_.features->descriptors.row(static_cast<Eigen::Index>(idx)).data());

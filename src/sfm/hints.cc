@@ -13,8 +13,8 @@ std::string HintFor(RefusalReason reason, const std::string& other) {
     case RefusalReason::kTooFewInliers:
       return "too little in common with " + likest + "; take a photo half-way between";
     case RefusalReason::kAmbiguous:
-      return "fits two places that look alike; step back or show something unique, such as a "
-             "corner or a door";
+      return "fits two places that look alike; fly on from the last accepted photo by half a "
+             "window's width, or step back and show something unique, such as a corner or a door";
     case RefusalReason::kNoParallax:
       return "taken from the same spot as " + likest +
              "; move sideways by a tenth of the distance to the wall";
@@ -41,8 +41,11 @@ std::string HintWithoutMap(RefusalReason reason, const std::string& other) {
       return "no model yet: what looks alike in " + other +
              " does not fit one rigid object; overlap more, and show what stands still";
     case RefusalReason::kAmbiguous:
-      return "no model yet: too little depth to tell how the camera moved from " + other +
-             "; step further aside, or show something that stands out of the wall";
+      return "no model yet: too little depth, or windows too alike, to tell how the camera moved "
+             "from " +
+             other +
+             "; step further aside, or show something that stands out of the wall and is "
+             "there only once";
     default:
       return HintFor(reason, other);
   }

@@ -72,6 +72,10 @@ class Mapper::Impl {
   // Start of the map (mapper_start.cc).
   std::optional<InitialPair> BestPairWith(PhotoId photo, PairSearch* search);
   const PairAttempt& TryPair(PhotoId photo1, PhotoId photo2);
+  bool AreTakenInTurn(PhotoId photo1, PhotoId photo2) const;
+  bool IsLookalike(const PhotoRecord& photo1,
+                   const PhotoRecord& photo2,
+                   const Rigid3& cam2_from_cam1);
   std::optional<InitialPair> BestPairOfMapWithout(PhotoId photo);
   std::vector<PhotoId> LikestPhotos(PhotoId photo) const;
   void TryStart(PhotoId photo);
@@ -92,6 +96,8 @@ class Mapper::Impl {
                        const std::vector<RankedView>& ranked,
                        MatchReach reach,
                        Location* location);
+  void RefuseLookalike(PhotoId photo, Location* location) const;
+  bool IsBesideNeighbor(PhotoId photo, const Localization& localization) const;
   bool TryAccept(PhotoId photo);
   void AddViewAt(PhotoId photo, const Rigid3& cam_from_map);
   bool IsSparse(PhotoId photo) const;

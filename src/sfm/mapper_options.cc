@@ -11,6 +11,7 @@ std::vector<std::string> MapperOptions::Problems() const {
   list.Append("retrieval", retrieval.Problems());
   list.Append("bootstrap", bootstrap.Problems());
   list.Append("localizer", localizer.Problems());
+  list.Append("lookalike", lookalike.Problems());
   list.Append("expander", expander.Problems());
   list.Append("bundle", bundle.Problems());
   list.Require(

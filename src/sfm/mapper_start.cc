@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <iterator>
 
-#include "sfm/expander.h"
+#include "sfm/lookalike_place.h"
 #include "sfm/mapper_impl.h"
 #include "sfm/track_geometry.h"
 
@@ -30,10 +31,34 @@ const PairAttempt& Mapper::Impl::TryPair(PhotoId photo1, PhotoId photo2) {
   if (is_new) {
     const PhotoRecord& record1 = records_.at(photo1);
     const PhotoRecord& record2 = records_.at(photo2);
-    it->second = TryInitialPair(
-        options_.bootstrap, camera_, record1, record2, matches_.Match(record1, record2));
+    const std::vector<FeatureMatch>& matches = matches_.Match(record1, record2);
+    it->second = TryInitialPair(options_.bootstrap, camera_, record1, record2, matches);
+    if (it->second.pair && IsLookalike(record1, record2, it->second.pair->cam2_from_cam1)) {
+      it->second = {std::nullopt, RefusalReason::kAmbiguous};
+    }
   }
   return it->second;
+}
+
+bool Mapper::Impl::IsLookalike(const PhotoRecord& photo1,
+                               const PhotoRecord& photo2,
+                               const Rigid3& cam2_from_cam1) {
+  const std::vector<SeenPoint> points = PairAsSeen(camera_,
+                                                   photo1,
+                                                   photo2,
+                                                   matches_.Match(photo1, photo2),
+                                                   cam2_from_cam1,
+                                                   options_.bootstrap.max_error_px);
+  const double share = LookalikeShare(options_.lookalike, camera_, photo2, points, cam2_from_cam1);
+  return share >= options_.lookalike.max_found_share ||
+         (share >= options_.lookalike.max_unsupported_share &&
+          !AreTakenInTurn(photo1.id, photo2.id));
+}
+
+// True if one is the next after the other, of those that could be analysed.
+bool Mapper::Impl::AreTakenInTurn(PhotoId photo1, PhotoId photo2) const {
+  const auto [earlier, later] = std::minmax(photo1, photo2);
+  return earlier < later && std::next(records_.find(earlier)) == records_.find(later);
 }
 
 // The earlier photos that look most like it, most alike first.

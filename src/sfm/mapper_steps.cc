@@ -7,7 +7,9 @@
 #include "plumbline/common/stopwatch.h"
 #include "sfm/covisibility.h"
 #include "sfm/expander.h"
+#include "sfm/lookalike_place.h"
 #include "sfm/mapper_impl.h"
+#include "sfm/track_geometry.h"
 
 namespace plumb {
 namespace {
@@ -163,8 +165,38 @@ void Mapper::Impl::LocateByMatches(PhotoId photo,
   if (location->localization.status == Localization::Status::kOk) {
     ExtendByGuidedMatching(
         options_.localizer, camera_, map_, record, location->views, &location->localization);
+    RefuseLookalike(photo, location);
   }
   seconds.pose_s += stopwatch.Restart();
+}
+
+void Mapper::Impl::RefuseLookalike(PhotoId photo, Location* location) const {
+  const PhotoRecord& record = records_.at(photo);
+  Localization& localization = location->localization;
+  const double share = LookalikeShare(options_.lookalike,
+                                      camera_,
+                                      record,
+                                      InliersAsSeen(map_, record, location->views, localization),
+                                      localization.cam_from_map);
+  const bool is_lookalike =
+      share >= options_.lookalike.max_found_share ||
+      (share >= options_.lookalike.max_unsupported_share && !IsBesideNeighbor(photo, localization));
+  if (is_lookalike) localization.status = Localization::Status::kAmbiguous;
+}
+
+// True if the photo taken before or after it sees a good part of its landmarks.
+bool Mapper::Impl::IsBesideNeighbor(PhotoId photo, const Localization& localization) const {
+  const double enough =
+      options_.lookalike.min_neighbor_share * static_cast<double>(localization.inliers.size());
+  return std::any_of(map_.views().begin(), map_.views().end(), [&](const auto& entry) {
+    if (!AreTakenInTurn(photo, entry.first)) return false;
+    const auto is_seen = [&](const MapMatch& match) {
+      return IsSeenIn(map_.landmark(match.landmark).track, entry.first);
+    };
+    const auto num_seen =
+        std::count_if(localization.inliers.begin(), localization.inliers.end(), is_seen);
+    return static_cast<double>(num_seen) >= enough;
+  });
 }
 
 bool Mapper::Impl::TryAccept(PhotoId photo) {

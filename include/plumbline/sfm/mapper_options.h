@@ -12,6 +12,7 @@
 #include "plumbline/sfm/bundle_options.h"
 #include "plumbline/sfm/expander_options.h"
 #include "plumbline/sfm/localizer_options.h"
+#include "plumbline/sfm/lookalike_options.h"
 
 namespace plumb {
 
@@ -21,6 +22,7 @@ struct MapperOptions {
   RetrievalOptions retrieval;
   BootstrapOptions bootstrap;
   LocalizerOptions localizer;
+  LookalikeOptions lookalike;
   ExpanderOptions expander;
   BundleOptions bundle;
 
@@ -42,6 +44,7 @@ void VisitFields(MapperOptions& options, Visitor&& visit) {
   visit("retrieval", options.retrieval);
   visit("bootstrap", options.bootstrap);
   visit("localizer", options.localizer);
+  visit("lookalike", options.lookalike);
   visit("expander", options.expander);
   visit("bundle", options.bundle);
   visit("max_retries_per_photo", options.max_retries_per_photo);
