@@ -93,7 +93,7 @@ def print_verdicts(verdicts):
     for verdict in verdicts:
         print(f"  {verdict.name}: {verdict.status} after {verdict.verdict_s:.2f} s"
               + (f", {verdict.reason}: {verdict.hint}" if verdict.status != "accepted" else
-                 f", {verdict.num_inliers} matches agree"))
+                 f", {verdict.num_inliers} landmarks agree"))
     for status in ("accepted", "waiting", "refused"):
         print(f"{sum(verdict.status == status for verdict in verdicts)} {status}", end=", ")
     times = sorted(verdict.verdict_s for verdict in verdicts)
