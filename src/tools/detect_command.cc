@@ -76,9 +76,11 @@ void AddDetectCommand(CLI::App* app, ExitCode* exit_code) {
   const auto arguments = std::make_shared<DetectArguments>();
   command->add_option("--photos", arguments->photos, "Folder of photos, with its sub-folders")
       ->required();
-  command->add_option("--camera",
-                      arguments->camera,
-                      "Lens, if known: ROS camera_info YAML; its distortion is undone");
+  command->add_option(
+      "--camera",
+      arguments->camera,
+      "Lens, if known: ROS camera_info YAML. Centre and ellipse stay those of the photo "
+      "as taken; pixel_from_marker of the JSON is then without distortion");
   command
       ->add_option("--output",
                    arguments->output,
