@@ -163,15 +163,15 @@ void WriteResults(const SessionStore& store,
                   const Stopwatch& wall,
                   RunReport* report,
                   Console* console) {
-  for (const std::string& line : ExportSession(store, store.folder() + "/export")) {
-    console->PrintLine(line);
-  }
+  const ExportedSession exported = ExportSession(store, store.folder() + "/export");
+  for (const std::string& line : exported.lines) console->PrintLine(line);
   report->wall_s = wall.Seconds();
   report->usage = CurrentProcessUsage();
   const std::string path = store.folder() + "/report.json";
   WriteRunReport(*report, path);
   console->PrintLine("wrote " + path);
   console->PrintLine(Summary(*report));
+  if (!exported.lacks.empty()) console->PrintLine(exported.lacks);
 }
 
 }  // namespace

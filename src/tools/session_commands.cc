@@ -33,7 +33,9 @@ void AddExportCommand(CLI::App* app, ExitCode* exit_code) {
     const SessionStore store = SessionStore::OpenExisting(arguments->session);
     const std::string folder =
         arguments->path.empty() ? arguments->session + "/export" : arguments->path;
-    for (const std::string& line : ExportSession(store, folder)) std::cout << line << '\n';
+    const ExportedSession exported = ExportSession(store, folder);
+    for (const std::string& line : exported.lines) std::cout << line << '\n';
+    if (!exported.lacks.empty()) std::cout << exported.lacks << '\n';
     *exit_code = kDone;
   });
 }

@@ -25,6 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr char kCameraYaml[] =
     "image_width: 640\nimage_height: 480\ncamera_name: test\n"
@@ -69,6 +70,11 @@ class ReconstructTest : public testing::Test {
     return {};
   }
 
+  static std::string TextOf(const std::string& path) {
+    const std::vector<std::uint8_t> bytes = ReadFileBytes(path);
+    return {bytes.begin(), bytes.end()};
+  }
+
   nlohmann::json Report() const {
     return nlohmann::json::parse(std::ifstream(arguments_.session + "/report.json"));
   }
@@ -107,10 +113,10 @@ TEST_F(ReconstructTest, GivesEveryBadPhotoAVerdictAndGoesOn) {
     EXPECT_THAT(output_, HasSubstr(photo["name"].get<std::string>() + ": refused, undecodable"));
   }
   EXPECT_THAT(names, testing::ElementsAre("empty.jpg", "notes.jpg", "truncated.jpg"));
-  const std::vector<std::uint8_t> kept = ReadFileBytes(arguments_.session + "/photos/notes.jpg");
-  EXPECT_EQ(std::string(kept.begin(), kept.end()), "not a photo");
+  EXPECT_EQ(TextOf(arguments_.session + "/photos/notes.jpg"), "not a photo");
   EXPECT_TRUE(fs::exists(arguments_.session + "/export/colmap/images.txt"));
   EXPECT_TRUE(fs::exists(arguments_.session + "/export/points.ply"));
+  EXPECT_THAT(output_, Not(HasSubstr("scale")));  // There is no map that could have one.
 }
 
 TEST_F(ReconstructTest, LeavesWhatIsNoPhotoOutOfTheSessionAndSaysSo) {
@@ -240,7 +246,9 @@ TEST_F(ReconstructTest, WhatIsWrongWithTheArgumentsIsNamedBeforeASessionIsMade) 
 TEST_F(ReconstructTest, TheSamePhotosInTheSameOrderGiveTheSameMap) {
   if (!UseSharedScene("Herz-Jesus-P8", 5)) GTEST_SKIP() << "set PLUMBLINE_DATA to the shared data";
   EXPECT_EQ(Run(), kDone);
+  EXPECT_THAT(output_, testing::EndsWith("survey, then export again\n"));
   const std::string first = arguments_.session;
+  EXPECT_THAT(TextOf(first + "/export/points.ply"), HasSubstr("\ncomment scale: none"));
   arguments_.session += "2";
   EXPECT_EQ(Run(), kDone);
   for (const char* file : {"cameras.txt", "images.txt", "points3D.txt"}) {
