@@ -8,6 +8,7 @@
 #include "plumbline/common/atomic_file.h"
 #include "plumbline/common/options.h"
 #include "tools/commands.h"
+#include "tools/count_text.h"
 #include "tools/detect.h"
 #include "tools/options_yaml.h"
 #include "tools/photo_list.h"
@@ -52,8 +53,7 @@ void Detect(const DetectArguments& arguments) {
     photos.push_back(DetectInPhoto(options, camera, arguments.photos, name));
     const DetectedPhoto& photo = photos.back();
     std::cerr << name << ": "
-              << (photo.problem.empty() ? std::to_string(photo.markers.size()) + " markers"
-                                        : photo.problem)
+              << (photo.problem.empty() ? CountOf(photo.markers.size(), "marker") : photo.problem)
               << '\n';
   }
   const std::string text = is_json ? ToJson(photos) : ToCsv(photos);

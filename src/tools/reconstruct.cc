@@ -17,6 +17,7 @@
 #include "plumbline/map/session_store.h"
 #include "plumbline/sfm/mapper.h"
 #include "plumbline/sfm/stored_session.h"
+#include "tools/count_text.h"
 #include "tools/export_session.h"
 #include "tools/options_yaml.h"
 #include "tools/photo_list.h"
@@ -92,12 +93,13 @@ class Feeder {
     Stopwatch turn;
     double cpu_s = CurrentProcessUsage().cpu_s;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
+      num_left_ = tasks.size() - i;
       if (stop) return false;
       ReadPhoto photo = next.get();
       if (i + 1 < tasks.size()) next = reader_.Start(tasks[i + 1]);
       console_->ShowProgress(i, tasks.size(), tasks[i].source_name);
-      if (photo.is_known) {
-        ++num_known_;
+      if (photo.known_as) {
+        if (turns_.count(*photo.known_as) == 0) ++num_known_;
         continue;
       }
       if (!photo.trouble.empty() && !photo.task.stored_id) {
@@ -109,6 +111,7 @@ class Feeder {
       const double cpu_before_s = std::exchange(cpu_s, CurrentProcessUsage().cpu_s);
       turns_[id] = {turn.Restart(), cpu_s - cpu_before_s};
     }
+    num_left_ = 0;
     console_->ShowProgress(tasks.size(), tasks.size(), "last bundle");
     mapper_.Finish();
     return true;
@@ -116,6 +119,7 @@ class Feeder {
 
   void Close() { recorder_.Close(); }
 
+  std::size_t num_left() const { return num_left_; }
   std::size_t num_known() const { return num_known_; }
   const std::vector<std::string>& unread() const { return unread_; }
   const std::map<PhotoId, PhotoTurn>& turns() const { return turns_; }
@@ -142,7 +146,8 @@ class Feeder {
   PhotoReader reader_;
   PhotoId next_id_;
   std::map<PhotoId, PhotoTurn> turns_;
-  std::size_t num_known_ = 0;  // Files that the session had answered already.
+  std::size_t num_left_ = 0;   // Not yet looked at.
+  std::size_t num_known_ = 0;  // Files that the session had answered before this run.
   std::vector<std::string> unread_;
   SessionRecorder recorder_;
   Mapper mapper_;
@@ -216,17 +221,17 @@ ExitCode Reconstruct(const ReconstructArguments& arguments,
   Feeder feeder(options, camera, &store, console);
   if (!session.photos.empty()) {
     console->PrintLine(arguments.session + ": going on after " +
-                       std::to_string(session.photos.size()) + " photos");
+                       CountOf(session.photos.size(), "photo"));
     feeder.Restore(std::move(session));
   }
   const bool is_complete = feeder.Feed(tasks, stop);
   feeder.Close();
   if (feeder.num_known() > 0) {
-    console->PrintLine(std::to_string(feeder.num_known()) + " files were in the session already");
+    console->PrintLine(CountOf(feeder.num_known(), "file") + " in the session already");
   }
   if (!feeder.unread().empty()) {
-    console->PrintLine(std::to_string(feeder.unread().size()) +
-                       " files could not be read, see above; run again once they can be");
+    console->PrintLine(CountOf(feeder.unread().size(), "file") +
+                       " could not be read, see above; run again once that is mended");
   }
 
   RunReport report;
@@ -238,7 +243,12 @@ ExitCode Reconstruct(const ReconstructArguments& arguments,
   report.interrupted = !is_complete;
   report.options = OptionsToJson(options);
   WriteResults(store, wall, &report, console);
-  if (!is_complete) return kInterrupted;
+  if (!is_complete) {
+    console->PrintLine("interrupted: " + std::to_string(feeder.num_left()) + " of " +
+                       CountOf(tasks.size(), "photo") +
+                       " not yet looked at; the same command goes on");
+    return kInterrupted;
+  }
   return feeder.map().views().empty() ? kNothingLocated : kDone;
 }
 

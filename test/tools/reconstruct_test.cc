@@ -159,7 +159,7 @@ TEST_F(ReconstructTest, TakesPhotosOfSubfoldersAndTellsThoseOfOneNameApart) {
   for (const StoredPhoto& photo : store.Photos()) names.push_back(photo.name);
   EXPECT_THAT(names, testing::ElementsAre("a.jpg", "101MEDIA_a.jpg"));
   Run();
-  EXPECT_THAT(output_, HasSubstr("2 files were in the session already"));
+  EXPECT_THAT(output_, HasSubstr("2 files in the session already"));
 }
 
 TEST_F(ReconstructTest, RefusesASessionThatIsMixedUpWithThePhotos) {
@@ -190,7 +190,7 @@ TEST_F(ReconstructTest, ASecondRunTakesOnlyWhatIsNew) {
   WritePhoto("b.jpg", "another under the same name");
   WritePhoto("c.jpg", "third");
   Run();
-  EXPECT_THAT(output_, HasSubstr("1 files were in the session already"));
+  EXPECT_THAT(output_, HasSubstr("1 file in the session already"));
   const SessionStore store = SessionStore::OpenExisting(arguments_.session);
   std::vector<std::string> names;
   for (const StoredPhoto& photo : store.Photos()) names.push_back(photo.name);
@@ -204,7 +204,9 @@ TEST_F(ReconstructTest, FinishesFirstWhatWasCutOff) {
     SessionStore store(arguments_.session, ReadCameraYaml(arguments_.camera));
     store.SavePhoto({0}, "cut_off.jpg", {'x'});  // No analysis, no verdict.
   }
+  WritePhoto("cut_off.jpg", "x");
   Run();
+  EXPECT_THAT(output_, Not(HasSubstr("in the session already"))) << "it was answered only now";
   const SessionStore store = SessionStore::OpenExisting(arguments_.session);
   const std::vector<PhotoVerdict> verdicts = store.AllVerdicts();
   ASSERT_EQ(verdicts.size(), 2u);
@@ -219,6 +221,9 @@ TEST_F(ReconstructTest, StopsBetweenPhotosAndKeepsWhatThereIs) {
   WritePhoto("a.jpg", "first");
   EXPECT_EQ(Run(/*stop=*/true), kInterrupted);
   EXPECT_EQ(Report()["run"]["interrupted"], true);
+  EXPECT_THAT(output_,
+              testing::EndsWith("interrupted: 1 of 1 photo not yet looked at; the same "
+                                "command goes on\n"));
   EXPECT_EQ(Run(), kNothingLocated);
   EXPECT_EQ(Report()["run"]["interrupted"], false);
   EXPECT_EQ(Report()["session"]["photos"], 1);
