@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -41,7 +42,8 @@ MarkerDetectorOptions ReadOptions(const std::vector<std::string>& settings) {
   return options;
 }
 
-void Detect(const DetectArguments& arguments) {
+// kNothingLocated if no photo could be searched.
+ExitCode Detect(const DetectArguments& arguments) {
   const bool is_json = IsJsonOutput(arguments.output);
   const MarkerDetectorOptions options = ReadOptions(arguments.settings);
   std::optional<Camera> camera;
@@ -62,6 +64,12 @@ void Detect(const DetectArguments& arguments) {
   } else {
     WriteFileAtomically(arguments.output, text);
   }
+  const bool is_any_searched =
+      std::any_of(photos.begin(), photos.end(), [](const DetectedPhoto& photo) {
+        return photo.problem.empty();
+      });
+  if (!is_any_searched) std::cerr << "none of the photos could be searched\n";
+  return is_any_searched ? kDone : kNothingLocated;
 }
 
 }  // namespace
@@ -88,10 +96,7 @@ void AddDetectCommand(CLI::App* app, ExitCode* exit_code) {
       ->capture_default_str();
   command->add_option("--set", arguments->settings, "KEY=VALUE: an option of the detector; repeat")
       ->allow_extra_args(false);
-  command->callback([arguments, exit_code] {
-    Detect(*arguments);
-    *exit_code = kDone;
-  });
+  command->callback([arguments, exit_code] { *exit_code = Detect(*arguments); });
 }
 
 }  // namespace plumb::tools

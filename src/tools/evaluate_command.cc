@@ -130,9 +130,10 @@ void AddEvaluateCommand(CLI::App* app, ExitCode* exit_code) {
       "and rotations [deg] after the similarity that fits the centres best, those of each photo, "
       "and which are wrong (beyond 100 mm or 1 degree). With --surface or --laser also the points' "
       "accuracy, completeness and F-score, and the bend of the flat wall [mm]. With --survey, "
-      "which "
-      "needs no --truth, the errors of control and check points [mm]; see docs/evaluation.md. "
-      "Photos are paired by the names they had where they came from.");
+      "which needs no --truth, the errors of control and check points [mm]; see "
+      "docs/evaluation.md. "
+      "Photos are paired by the names they had where they came from.\n" +
+      std::string(kExitCodes));
   const auto arguments = std::make_shared<EvaluateArguments>();
   AddOptions(command, arguments.get());
   command->callback([arguments, exit_code] {
