@@ -45,6 +45,7 @@ class CommandsTest : public testing::Test {
     ExitCode exit_code = kFailed;
     AddCheckCommand(&app, &exit_code);
     AddDetectCommand(&app, &exit_code);
+    AddMarkersCommand(&app, &exit_code);
     testing::internal::CaptureStdout();
     testing::internal::CaptureStderr();
     error_.clear();
@@ -86,6 +87,19 @@ TEST_F(CommandsTest, CheckSaysToTheShellWhetherAnyPhotoIsUsable) {
   cv::imwrite(Path("photos/textured.png"), noise);
   EXPECT_EQ(Run(line), kDone);
   EXPECT_THAT(out_, HasSubstr("\"usable\":true"));
+}
+
+TEST_F(CommandsTest, MarkersSaysWhatIsWrongInItsOwnWords) {
+  Run("markers sheet --paper a5 --output " + Path("a.pdf"));
+  EXPECT_EQ(error_, "--paper: \"a5\" is not known; use a3 or a4");
+  Run("markers target --id 100000 --output " + Path("a.pdf"));
+  EXPECT_THAT(error_, HasSubstr(", there is no 100000"));
+  Run("markers target --id 7 --output " + Path("absent/a.pdf"));
+  EXPECT_THAT(error_, HasSubstr("there is no folder " + Path("absent") + "; make it"));
+  Run("markers target --id 7 --output " + Path("camera.yaml/a.pdf"));
+  EXPECT_THAT(error_, HasSubstr("is a file: choose another folder"));
+  EXPECT_EQ(Run("markers sheet --paper A3 --arrangement LOOSE --output " + Path("a.pdf")), kDone);
+  EXPECT_THAT(out_, HasSubstr("calibration markers 0 to 15"));
 }
 
 }  // namespace
