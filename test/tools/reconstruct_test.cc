@@ -168,6 +168,8 @@ TEST_F(ReconstructTest, RefusesASessionThatIsMixedUpWithThePhotos) {
   const std::string session = arguments_.session;
   arguments_.session = photos + "/";
   EXPECT_THAT(ErrorOf(), HasSubstr("is the folder of the photos"));
+  arguments_.session = photos + "/a.jpg";
+  EXPECT_THAT(ErrorOf(), HasSubstr("a.jpg: is a file; a session is a folder"));
   arguments_.session = root_.string();
   EXPECT_THAT(ErrorOf(), HasSubstr("lies inside the session"));
   arguments_.session = session;
