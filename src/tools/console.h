@@ -22,6 +22,8 @@ class Console {
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
 
+  bool is_terminal() const { return is_terminal_; }
+
   void PrintLine(const std::string& line);
 
   // `num_done` of `num_all` photos, and what stands behind the bar.
