@@ -80,7 +80,7 @@ def fly(photos, card, verdicts, arguments):
     """Leaves the photos on the card; returns how many were answered in time."""
     for number, photo in enumerate(photos, start=1):
         begin = time.monotonic()
-        fly_photos.leave_photo(photo, card)
+        fly_photos.leave_photo(photo, card / photo.relative_to(arguments.photos))
         if number in arguments.picture_at and number < len(photos):
             verdicts.wait_for(number, arguments.deadline)
             take_picture(arguments.out / f"rviz_{number:03d}.png")
@@ -159,7 +159,7 @@ def wait_for_master(launch):
 
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--photos", required=True, type=pathlib.Path, help="folder of photos")
+    parser.add_argument("--photos", required=True, type=pathlib.Path, help="folder of photos, with its sub-folders")
     parser.add_argument("--camera", required=True, type=pathlib.Path, help="camera_info YAML")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("build/demo"),
                         help="folder for pictures and session; emptied first")
