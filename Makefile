@@ -45,6 +45,8 @@ bench: build ## Measure accuracy and seconds a photo on the shared and the simul
 has-photos:
 	@test "$(PHOTOS)" = "$(SIMULATED)/photos" -o -d "$(PHOTOS)" || { \
 	  echo "demo: no folder $(PHOTOS): give PHOTOS=dir CAMERA=camera.yaml, or neither" >&2; exit 1; }
+	@test "$(origin PHOTOS)" != file -o "$(origin CAMERA)" = file || { \
+	  echo "demo: CAMERA is of your own photos: give PHOTOS=dir with it, or neither" >&2; exit 1; }
 
 # Made anew when the program or the scenario is newer.
 $(SIMULATED)/.complete: devel/lib/plumbline/plumbline config/scenarios/demo.yaml
