@@ -72,6 +72,27 @@ std::vector<PhotoTask> UnfinishedTasks(const std::vector<StoredPhoto>& unfinishe
   return tasks;
 }
 
+// Whether the session's report tells that a run with these options has completed this very map.
+bool IsCompleted(const SessionStore& store,
+                 const StoredSession& session,
+                 const MapperOptions& options) {
+  try {
+    const std::vector<std::uint8_t> bytes = ReadFileBytes(store.folder() + "/report.json");
+    const auto report = nlohmann::ordered_json::parse(bytes.begin(), bytes.end());
+    const nlohmann::ordered_json& counts = report.at("session");
+    return session.unfinished.empty() && report.at("run").at("interrupted") == false &&
+           counts.at("photos") == session.photos.size() &&
+           counts.at("accepted") == session.snapshot.views_set.size() &&
+           counts.at("landmarks") == session.snapshot.landmarks_set.size() &&
+           counts.at("observations") == session.snapshot.observations_added.size() &&
+           report.at("options") == OptionsToJson(options);
+  } catch (const std::runtime_error&) {  // It is not there.
+    return false;
+  } catch (const nlohmann::json::exception&) {  // It was cut off or changed.
+    return false;
+  }
+}
+
 // Feeds photos to a mapper while the next one is being read and analysed.
 class Feeder {
  public:
@@ -87,8 +108,8 @@ class Feeder {
     mapper_.Restore(std::move(session.photos), session.verdicts, session.snapshot);
   }
 
-  // False if it was stopped.
-  bool Feed(const std::vector<PhotoTask>& tasks, const std::atomic<bool>& stop) {
+  // False if it was stopped. A map that is completed already stays as it is if nothing is new.
+  bool Feed(const std::vector<PhotoTask>& tasks, bool is_completed, const std::atomic<bool>& stop) {
     std::future<ReadPhoto> next = reader_.Start(tasks[0]);
     Stopwatch turn;
     double cpu_s = CurrentProcessUsage().cpu_s;
@@ -112,6 +133,7 @@ class Feeder {
       turns_[id] = {turn.Restart(), cpu_s - cpu_before_s};
     }
     num_left_ = 0;
+    if (turns_.empty() && is_completed) return true;
     console_->ShowProgress(tasks.size(), tasks.size(), "last bundle");
     mapper_.Finish();
     return true;
@@ -218,13 +240,14 @@ ExitCode Reconstruct(const ReconstructArguments& arguments,
   StoredSession session = ReadStoredSession(store);
   std::vector<PhotoTask> tasks = UnfinishedTasks(session.unfinished, &store);
   tasks.insert(tasks.end(), folder_tasks.begin(), folder_tasks.end());
+  const bool is_completed = IsCompleted(store, session, options);
   Feeder feeder(options, camera, &store, console);
   if (!session.photos.empty()) {
     console->PrintLine(arguments.session + ": going on after " +
                        CountOf(session.photos.size(), "photo"));
     feeder.Restore(std::move(session));
   }
-  const bool is_complete = feeder.Feed(tasks, stop);
+  const bool is_complete = feeder.Feed(tasks, is_completed, stop);
   feeder.Close();
   if (feeder.num_known() > 0) {
     console->PrintLine(CountOf(feeder.num_known(), "file") + " in the session already");
@@ -232,6 +255,12 @@ ExitCode Reconstruct(const ReconstructArguments& arguments,
   if (!feeder.unread().empty()) {
     console->PrintLine(CountOf(feeder.unread().size(), "file") +
                        " could not be read, see above; run again once that is mended");
+  }
+
+  const ExitCode exit_code = feeder.map().views().empty() ? kNothingLocated : kDone;
+  if (is_complete && is_completed && feeder.turns().empty()) {
+    console->PrintLine("nothing new: map, export and report stay as they are");
+    return exit_code;
   }
 
   RunReport report;
@@ -249,7 +278,7 @@ ExitCode Reconstruct(const ReconstructArguments& arguments,
                        " not yet looked at; the same command goes on");
     return kInterrupted;
   }
-  return feeder.map().views().empty() ? kNothingLocated : kDone;
+  return exit_code;
 }
 
 }  // namespace plumb::tools

@@ -200,6 +200,24 @@ TEST_F(ReconstructTest, ASecondRunTakesOnlyWhatIsNew) {
   EXPECT_EQ(store.LatestVerdicts().size(), 4u);
 }
 
+TEST_F(ReconstructTest, WithNothingNewAllStaysAsItIs) {
+  WritePhoto("a.jpg", "first");
+  Run();
+  EXPECT_THAT(output_, Not(HasSubstr("nothing new")));
+  const std::string report = TextOf(arguments_.session + "/report.json");
+  EXPECT_EQ(Run(), kNothingLocated);
+  EXPECT_THAT(output_, HasSubstr("nothing new"));
+  EXPECT_EQ(TextOf(arguments_.session + "/report.json"), report);
+
+  arguments_.settings = {"localizer.num_views=12"};
+  Run();
+  EXPECT_THAT(output_, Not(HasSubstr("nothing new"))) << "other options, another map";
+  WriteFileAtomically(arguments_.session + "/report.json", "{\"run\": 5");
+  Run();
+  EXPECT_THAT(output_, Not(HasSubstr("nothing new"))) << "the report says nothing";
+  EXPECT_EQ(Report()["session"]["photos"], 1);
+}
+
 TEST_F(ReconstructTest, FinishesFirstWhatWasCutOff) {
   WritePhoto("a.jpg", "first");
   {
@@ -262,6 +280,10 @@ TEST_F(ReconstructTest, TheSamePhotosInTheSameOrderGiveTheSameMap) {
     const std::string name = std::string("/export/colmap/") + file;
     EXPECT_EQ(ReadFileBytes(first + name), ReadFileBytes(arguments_.session + name)) << file;
   }
+  EXPECT_EQ(Run(), kDone);
+  EXPECT_THAT(output_, HasSubstr("nothing new"));
+  const std::string points = "/export/colmap/points3D.txt";
+  EXPECT_EQ(ReadFileBytes(first + points), ReadFileBytes(arguments_.session + points));
 }
 
 TEST_F(ReconstructTest, AKilledRunGoesOnAndLocatesEveryPhotoOnce) {
