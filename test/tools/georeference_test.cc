@@ -135,8 +135,8 @@ class GeoreferenceTest : public testing::Test {
     return "no error";
   }
 
-  ExportLines Export() const {
-    return ExportSession(SessionStore::OpenExisting(arguments_.session), root_ + "/out");
+  std::vector<std::string> Export() const {
+    return ExportSession(SessionStore::OpenExisting(arguments_.session), root_ + "/out").lines;
   }
 
   // The header, and the one point behind it.
