@@ -149,7 +149,7 @@ class CalibrateTest(wire.FolderTest):
     def test_a_bag_is_played_and_a_driver_may_refuse(self):
         bag_path = self.folder / "calibration.bag"
         with rosbag.Bag(str(bag_path), "w") as bag:
-            for number in range(18):  # 4 images a second; each view stands still for 1.5 s.
+            for number in range(24):  # 4 images a second; each view stands still for 1.5 s.
                 stamp = rospy.Time(1000) + rospy.Duration(0.25 * number)
                 image = CompressedImage(format="png")
                 image.header.stamp = stamp
@@ -163,7 +163,7 @@ class CalibrateTest(wire.FolderTest):
         self.addCleanup(server.shutdown)
         subprocess.run(["rosrun", "rosbag", "play", "--quiet", "--wait-for-subscribers", bag_path],
                        check=True, timeout=wire.DEADLINE_S, stdin=subprocess.DEVNULL)
-        self.wait_for_photos(3)
+        self.wait_for_photos(4)
         self.call("calibrate")
         answer = self.call("commit")
         self.assertFalse(answer.success)
