@@ -11,6 +11,7 @@
 #include "calibration/moved_markers.h"
 #include "calibration/result_tables.h"
 #include "calibration/wording.h"
+#include "plumbline/marker/marker_layout.h"
 
 namespace plumb {
 namespace {
@@ -26,7 +27,9 @@ constexpr double kMinStretch = 0.002;
 constexpr double kMaxPrintDiameters = 0.015;  // Five times what a printer does.
 constexpr double kSameSpotShare = 0.15;       // Of the distance to the markers.
 constexpr double kUnclearFocalPercent = 2.0;
-constexpr double kMinRise = 1.1;  // Of the error function from its minimum to either end.
+constexpr double kMinRise = 1.1;         // Of the error function from its minimum to either end.
+constexpr double kMinHiddenShare = 0.1;  // Of the markers seen.
+constexpr int kRimPoints = 12;
 constexpr double kNoisy = 4.0;
 constexpr double kTooNoisy = 15.0;
 
@@ -48,6 +51,7 @@ class Diagnosis {
     CheckPhotos();
     CheckMoved();
     CheckViews();
+    CheckHidden();
     CheckHeights();
     if (!options_.fixed_grid.empty()) CheckPrint();
     CheckSpots();
@@ -141,6 +145,57 @@ class Diagnosis {
              NamePhotos(names) + ": partly hidden, mirrored or blurred. Left out there.",
          marker_ids,
          names});
+  }
+
+  // Markers that lie in the image and were not found.
+  void CheckHidden() {
+    std::set<std::pair<int, int>> found;  // Photo of the board, ID.
+    for (std::size_t i = 0; i < intake_.photo_of_board.size(); ++i) {
+      for (const MarkerDetection& marker : photos_[intake_.photo_of_board[i]].markers) {
+        found.emplace(static_cast<int>(i), marker.id);
+      }
+    }
+    std::set<int> ids;
+    std::vector<int> photos;
+    std::size_t num_hidden = 0;
+    for (std::size_t i = 0; i < intake_.photo_of_board.size(); ++i) {
+      const auto photo = static_cast<int>(i);
+      if (solution_.is_photo_out[i] != 0) continue;
+      for (std::size_t k = 0; k < intake_.marker_ids.size(); ++k) {
+        const int id = intake_.marker_ids[k];
+        if (found.count({photo, id}) > 0 || !IsWhollyInImage(photo, k)) continue;
+        ++num_hidden;
+        ids.insert(id);
+        if (photos.empty() || photos.back() != photo) photos.push_back(photo);
+      }
+    }
+    if (static_cast<double>(num_hidden) <
+        kMinHiddenShare * static_cast<double>(solution_.board.views.size())) {
+      return;
+    }
+    const std::vector<std::string> names = NamesOf(photos);
+    const std::vector<int> marker_ids(ids.begin(), ids.end());
+    Add({Kind::kWrongView,
+         false,
+         Count(num_hidden, "marker") + " that should show in " + NamePhotos(names) +
+             (num_hidden == 1 ? " was" : " were") + " not found (" + NameMarkers(marker_ids) +
+             "): covered, blurred or in glare.",
+         marker_ids,
+         names});
+  }
+
+  // With its white rim.
+  bool IsWhollyInImage(int photo, std::size_t marker) const {
+    if (solution_.is_marker_out[marker] != 0) return false;
+    const Rigid3& cam_from_plane = solution_.state.cams_from_plane[static_cast<std::size_t>(photo)];
+    for (int i = 0; i < kRimPoints; ++i) {
+      const double angle_rad = 2.0 * M_PI * i / kRimPoints;
+      const Eigen::Vector3d rim(std::cos(angle_rad), std::sin(angle_rad), 0.0);
+      const auto pixel = solution_.camera.Project(
+          cam_from_plane * (solution_.state.centers_in_plane[marker] + 0.5 * kQuietRadius * rim));
+      if (!pixel || !solution_.camera.IsInImage(*pixel)) return false;
+    }
+    return true;
   }
 
   void CheckHeights() {

@@ -202,7 +202,9 @@ std::string DrawCoverage(const CalibrationResult& result) {
 
 std::string DrawMarkers(const CalibrationResult& result) {
   SvgCanvas canvas(kWidth, kWidth);
-  canvas.Text({kMargin, 36.0}, "Markers from above, heights over the plane", kTitleText);
+  const std::string unit = result.is_metric ? "mm" : "marker diameters";
+  canvas.Text(
+      {kMargin, 36.0}, "Markers from above, heights over the plane [" + unit + "]", kTitleText);
   Eigen::AlignedBox2d box;
   for (const CalibratedMarker& marker : result.markers) {
     if (marker.is_used) box.extend(Eigen::Vector2d(marker.center_in_plane.head<2>()));
@@ -220,7 +222,8 @@ std::string DrawMarkers(const CalibrationResult& result) {
     canvas.Line(at, at + 16.0 * Eigen::Vector2d(c, -s), color);
     canvas.Text(at + Eigen::Vector2d(18.0, -6.0), std::to_string(marker.id), kSmallText);
     canvas.Text(at + Eigen::Vector2d(0.0, 30.0),
-                Length(marker.center_in_plane.z(), result.is_metric),
+                result.is_metric ? Number(1000.0 * marker.center_in_plane.z(), 1)
+                                 : Number(marker.center_in_plane.z(), 3),
                 kSmallText - 2.0,
                 0);
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calibration/wording.h"
 
+#include <cmath>
 #include <iomanip>
 #include <locale>
 #include <sstream>
@@ -41,7 +42,9 @@ std::string Count(std::size_t count, const std::string& noun) {
 std::string Number(double value, int digits) {
   std::ostringstream text;
   text.imbue(std::locale::classic());
-  text << std::fixed << std::setprecision(digits) << value;
+  const double unit = std::pow(10.0, -digits);
+  // No minus before nothing.
+  text << std::fixed << std::setprecision(digits) << (std::abs(value) < 0.5 * unit ? 0.0 : value);
   return text.str();
 }
 

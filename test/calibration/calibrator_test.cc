@@ -186,6 +186,10 @@ TEST(CalibrateCamera, DoesWithTwoThirdsOfTheMarkers) {
   const CalibrationResult result = CalibrateCamera(QuickOptions(), MakeCalibrationPhotos(scene));
   ASSERT_TRUE(result.estimate) << TextOf(result);
   EXPECT_LT(FocalErrorPercent(result, scene.camera), 0.2);
+  const auto finding = FindingOf(result, Kind::kWrongView);
+  ASSERT_TRUE(finding) << TextOf(result);
+  EXPECT_THAT(finding->text, testing::HasSubstr("were not found"));
+  EXPECT_GE(finding->photos.size(), 8U);
 }
 
 TEST(CalibrateCamera, FitsARationalLens) {
