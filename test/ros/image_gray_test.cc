@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <boost/make_shared.hpp>
 #include <cstring>
 
 #include "plumbline/marker/marker_detector.h"
