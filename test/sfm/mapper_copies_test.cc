@@ -38,7 +38,34 @@ double LargestCenterError_m(const CopiedBays& bays, const Map& map) {
   return *std::max_element(errors.begin(), errors.end());
 }
 
-// Without the search the pair of neighbours that a map starts from is one of copies.
+// Landmarks of which all features show one point of the facade; 1 for an empty map.
+double ShareOfTrueLandmarks(const CopiedBays& bays, const Map& map) {
+  int num_true = 0;
+  for (const LandmarkId id : map.LandmarkIds()) {
+    const std::vector<Observation>& track = map.landmark(id).track;
+    const auto point_of = [&](const Observation& observation) {
+      return bays.photos[observation.photo.value].point_of_feature[observation.feature_idx];
+    };
+    const bool is_true = std::all_of(track.begin(), track.end(), [&](const Observation& other) {
+      return point_of(other) == point_of(track[0]);
+    });
+    if (is_true) ++num_true;
+  }
+  return map.num_landmarks() == 0 ? 1.0 : num_true / static_cast<double>(map.num_landmarks());
+}
+
+// The search is what keeps copies apart: without it a map is folded.
+TEST(MapperCopiedBays, AreFoldedIfNothingIsLookedForElsewhere) {
+  const CopiedBays bays = MakeCopiedBays(CopiedBaysOptions());
+  MapperOptions options;
+  options.lookalike.min_common_share = 1.0;  // A place a bay further on never has all in view.
+  test::Recorder heard;
+  Mapper mapper(options, bays.scene.camera, &heard);
+  Fly(bays, &mapper);
+  EXPECT_GE(heard.NumAccepted(), 2);
+  EXPECT_LT(ShareOfTrueLandmarks(bays, mapper.map()), 0.5);
+}
+
 TEST(MapperCopiedBays, NothingIsBuiltOfCopiesAlone) {
   const CopiedBays bays = MakeCopiedBays(CopiedBaysOptions());
   test::Recorder heard;
@@ -63,22 +90,6 @@ TEST(MapperCopiedBays, CopiesAmongMuchThatIsUniqueDoNoHarm) {
   Fly(bays, &mapper);
   EXPECT_EQ(heard.NumAccepted(), options.num_cameras);
   EXPECT_LT(LargestCenterError_m(bays, mapper.map()), 0.05);
-}
-
-// Landmarks of which all features show one point of the facade; 1 for an empty map.
-double ShareOfTrueLandmarks(const CopiedBays& bays, const Map& map) {
-  int num_true = 0;
-  for (const LandmarkId id : map.LandmarkIds()) {
-    const std::vector<Observation>& track = map.landmark(id).track;
-    const auto point_of = [&](const Observation& observation) {
-      return bays.photos[observation.photo.value].point_of_feature[observation.feature_idx];
-    };
-    const bool is_true = std::all_of(track.begin(), track.end(), [&](const Observation& other) {
-      return point_of(other) == point_of(track[0]);
-    });
-    if (is_true) ++num_true;
-  }
-  return map.num_landmarks() == 0 ? 1.0 : num_true / static_cast<double>(map.num_landmarks());
 }
 
 TEST(MapperCopiedBays, NoShareOfCopiesGivesAWrongPose) {
