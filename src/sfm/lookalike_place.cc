@@ -18,7 +18,7 @@ constexpr double kMinShiftRatio = 0.04;
 // Copies that agree on a pose within this radius belong to one place [px].
 constexpr double kRadius_px = 8.0;
 
-// Wrong copies agree by chance, up to 13 of 215 on Herz-Jesus-P8.
+// Fewer agree by chance. So may 13 of 215, as on Herz-Jesus-P8, but on a turned camera.
 constexpr int kMinNumCopies = 12;
 
 // Windows repeat to the left, to the right, above and below. The copies of one place taken out,
