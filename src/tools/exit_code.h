@@ -17,7 +17,8 @@ enum ExitCode {
 // The same, for --help.
 constexpr char kExitCodes[] =
     "Exit codes: 0 done (the report names refused photos); 1 a file, an option value or the disk, "
-    "named with its cure; 2 wrong usage; 3 no photo could be located, or none was usable; 4 no good "
+    "named with its cure; 2 wrong usage; 3 no photo could be located, or none was usable; 4 no "
+    "good "
     "calibration; 130 ended by Ctrl-C, what there was is kept.";
 
 }  // namespace plumb::tools

@@ -26,11 +26,11 @@ struct FacadeOptions {
   int num_doors = 2;
   int num_downpipes = 3;
   double cornice_out_m = 0.7;  // How far the main cornice stands out of the wall.
-  // Plates with coded markers for control points, their IDs from 0 on, spread over the main wall, or
-  // over all four where it is closed.
+  // Plates with coded markers for control points, their IDs from 0 on, spread over the main wall,
+  // or over all four where it is closed.
   int num_targets = 17;
   double target_diameter_m = 0.5;  // Of the marker; the plate holds its quiet zone as well.
-  bool closed = false;  // All four sides have bays: a building to fly around.
+  bool closed = false;             // All four sides have bays: a building to fly around.
   // 0: each window, sill, stone is unique; 1: all are exact copies, detail included.
   double repetition = 0.0;
   // Share of the main wall's storeys that are plain painted, nearly without texture, 0..1.
