@@ -108,7 +108,8 @@ std::optional<std::vector<EdgePoint>> EdgesOf(const Face& face) {
   }
   const double length = (kStripeOuterRadius - kStripeInnerRadius) / kPointsPerBorder;
   for (int i = 0; i < kNumCodeBits * kPointsPerBorder; ++i) {
-    const double angle_rad = 2.0 * M_PI * (i / kPointsPerBorder) / kNumCodeBits;
+    const int border = i / kPointsPerBorder;
+    const double angle_rad = 2.0 * M_PI * border / kNumCodeBits;
     const double radius = kStripeInnerRadius + (i % kPointsPerBorder + 0.5) * length;
     if (!add(angle_rad, radius, true, kBorderShare * length)) return std::nullopt;
   }

@@ -22,8 +22,9 @@ std::vector<Eigen::Vector2d> ImageRays(int width_px,
                                        const LensParameters<double>& lens) {
   std::vector<Eigen::Vector2d> rays;
   for (int i = 0; i < kCols * kRows; ++i) {
+    const int row = i / kCols;
     const double x_px = (i % kCols) * (width_px - 1.0) / (kCols - 1);
-    const double y_px = (i / kCols) * (height_px - 1.0) / (kRows - 1);
+    const double y_px = row * (height_px - 1.0) / (kRows - 1);
     const Eigen::Vector2d wanted((x_px - lens[kCx]) / lens[kFx], (y_px - lens[kCy]) / lens[kFy]);
     Eigen::Vector2d xy = wanted;
     for (int step = 0; step < 100; ++step) {

@@ -39,6 +39,7 @@ MarkerPlaces FindMarkerPlaces(const BoardSolution& solution, int marker_idx) {
     usual = &place;
   }
   MarkerPlaces result;
+  if (usual == nullptr) return result;
   std::vector<double> distances;
   for (const Place& place : places) {
     if (is_same(*usual, place)) {
