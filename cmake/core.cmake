@@ -50,6 +50,7 @@ plumb_module(marker plumb_image PkgConfig::CAIRO)
 plumb_module(map plumb_image PkgConfig::SQLITE3 nlohmann_json::nlohmann_json)
 plumb_module(matching plumb_map opencv_core)
 plumb_module(sfm plumb_matching Ceres::ceres)
+plumb_module(quality plumb_map opencv_imgproc embree)
 plumb_module(simulation plumb_image embree PkgConfig::PROJ)
 # A vectorised square root sets no errno.
 set_source_files_properties(src/simulation/develop.cc PROPERTIES COMPILE_OPTIONS -fno-math-errno)
@@ -97,6 +98,7 @@ endfunction()
 foreach(module common geometry camera image marker map matching sfm simulation export evaluation tools)
   plumb_module_test(${module} plumb_${module} plumb_camera)  # test/support makes scenes.
 endforeach()
+plumb_module_test(quality plumb_quality plumb_simulation)  # Whose facades are true meshes.
 
 # Timing programs: test/benchmark/*_benchmark.cc.
 find_package(benchmark QUIET)
