@@ -15,6 +15,9 @@ find_package(catkin REQUIRED COMPONENTS cv_bridge diagnostic_msgs
 add_message_files(FILES LandmarkStates.msg MapDelta.msg ObservationStates.msg Photo.msg
                   PhotoVerdict.msg StoredPhotos.msg ViewState.msg)
 add_service_files(FILES GetMap.srv)
+# The mesh and its quality.
+add_message_files(FILES Gap.msg Gaps.msg MeshBlock.msg MeshDelta.msg)
+add_service_files(FILES GetMesh.srv SetMeshDisplay.srv)
 generate_messages(DEPENDENCIES geometry_msgs sensor_msgs std_msgs)
 catkin_package(CATKIN_DEPENDS message_runtime geometry_msgs sensor_msgs std_msgs)
 
@@ -25,6 +28,7 @@ target_include_directories(plumb_ros PUBLIC ${PROJECT_SOURCE_DIR}/src)
 target_include_directories(plumb_ros SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/include
                            ${catkin_INCLUDE_DIRS})
 target_link_libraries(plumb_ros PUBLIC plumb_export ${catkin_LIBRARIES} PRIVATE plumb_warnings)
+target_link_libraries(plumb_ros PUBLIC plumb_quality)
 
 # src/nodes/<name>_node.cc becomes `rosrun plumbline <name>`.
 file(GLOB node_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/nodes/*_node.cc)

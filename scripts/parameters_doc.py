@@ -13,7 +13,8 @@ import sys
 
 SOURCE = pathlib.Path(__file__).resolve().parents[1]
 PAGE = SOURCE / "docs" / "parameters.md"
-ROOTS = {"camera_ingest": "CameraIngestOptions", "mapper": "MapperRosOptions"}
+ROOTS = {"camera_ingest": "CameraIngestOptions", "mapper": "MapperRosOptions",
+         "mesher": "MesherRosOptions"}
 
 STRUCT = re.compile(r"^struct (\w+Options) \{$")
 FIELD = re.compile(r"^  ([\w:]+) (\w+)(?: = .*?)?(?:;|\{|\[)(?:.*?;)?(?:\s*//\s*(.*))?")

@@ -15,7 +15,7 @@ constexpr double kMinTold = 0.08;
 
 std::string Decimal(double value) {
   std::ostringstream text;
-  text.precision(value < 10.0 ? 1 : 0);
+  text.precision(value < 9.95 ? 1 : 0);
   text << std::fixed << value;
   return text.str();
 }

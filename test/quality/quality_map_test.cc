@@ -97,7 +97,8 @@ void ExpectAsByBruteForce(const test::Soup& soup,
   for (std::size_t face = 0; face < soup.size(); face += every) {
     const FaceQuality& quality = quality_of_face.at(static_cast<std::uint32_t>(face));
     const test::TrueQuality truth = test::BruteForce(soup, face, *map.camera(), views);
-    ASSERT_EQ(quality.num_views, truth.num_views) << "face " << face;
+    ASSERT_EQ(quality.num_views, truth.num_views)
+        << "face " << face << ", hidden " << quality.num_hidden << " against " << truth.num_hidden;
     ASSERT_EQ(quality.num_hidden, truth.num_hidden) << "face " << face;
     num_seen += truth.num_views;
     num_hidden += truth.num_hidden;

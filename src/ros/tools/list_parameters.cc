@@ -6,11 +6,13 @@
 #include "plumbline/map/run_report.h"
 #include "ros/camera_ingest_options.h"
 #include "ros/mapper_ros_options.h"
+#include "ros/mesher_ros_options.h"
 
 int main() {
   nlohmann::ordered_json nodes;
   nodes["camera_ingest"] = plumb::OptionsToJson(plumb::ros_adapter::CameraIngestOptions());
   nodes["mapper"] = plumb::OptionsToJson(plumb::ros_adapter::MapperRosOptions());
+  nodes["mesher"] = plumb::OptionsToJson(plumb::ros_adapter::MesherRosOptions());
   std::cout << nodes.dump(1) << '\n';
   return 0;
 }
