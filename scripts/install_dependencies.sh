@@ -17,7 +17,7 @@ packages=(
   python3-sensor-msgs python3-std-srvs python3-tf2-ros python3-visualization-msgs
   ros-core-dev rosbash rviz
   # Tests and the demo.
-  imagemagick libapriltag-dev libbenchmark-dev libgl1-mesa-dri libgmock-dev libgtest-dev libopencv-contrib-dev python3-numpy
+  imagemagick libapriltag-dev libbenchmark-dev libgl1-mesa-dri libgmock-dev libgtest-dev libmaxflow-dev libopencv-contrib-dev python3-numpy
   python3-yaml x11-utils xauth xvfb
 )
 if [[ ${1:-} == --lint ]]; then
