@@ -21,9 +21,6 @@ namespace {
 using test::ExpectSameMesh;
 using test::RandomMap;
 using test::SimpleMap;
-using testing::Contains;
-using testing::ElementsAre;
-using testing::Field;
 using testing::IsEmpty;
 using testing::SizeIs;
 
@@ -217,7 +214,8 @@ TEST(SurfaceMesher, NamesWhatItCannotUse) {
 
   SurfaceMesher mesher(SmallOptions());
   std::vector<std::string> said;
-  for (const SurfaceProblem& problem : mesher.Apply(delta)->report.problems) {
+  const SurfaceUpdate update = mesher.Apply(delta).value();
+  for (const SurfaceProblem& problem : update.report.problems) {
     said.push_back(Describe(problem));
   }
   EXPECT_THAT(said,
