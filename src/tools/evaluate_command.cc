@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "plumbline/evaluation/ply_reader.h"
 #include "plumbline/evaluation/pose_evaluation.h"
 #include "plumbline/map/session_store.h"
 #include "tools/commands.h"
@@ -39,6 +40,7 @@ Json ToJson(const PoseEvaluation& evaluation) {
 struct EvaluateArguments {
   std::string session;
   std::string poses;
+  std::string mesh;
   GeometryTruth truth;
 };
 
@@ -56,6 +58,10 @@ void AddOptions(CLI::App* command, EvaluateArguments* arguments) {
                       "PLY of the true surface, a mesh in the frame of the true poses; faces whose "
                       "property main_wall is not 0 are the wall that is truly flat");
   command->add_option("--laser", truth->laser, "PLY of a scan, a point cloud in the same frame");
+  command->add_option("--mesh",
+                      arguments->mesh,
+                      "PLY of a mesh in the map's frame, such as plumbline mesh writes, to be "
+                      "compared with the surface and the scan as well");
   truth->num_samples = 500'000;
   command
       ->add_option(
@@ -82,6 +88,11 @@ void Evaluate(const EvaluateArguments& arguments) {
     points_in_world.push_back(poses.world_from_map * landmark.position_in_map);
   }
   ReportGeometry(truth, store.camera(), points_in_world, &report);
+  if (!arguments.mesh.empty()) {
+    TriangleMesh mesh = ReadPlyMesh(arguments.mesh);
+    for (Eigen::Vector3d& vertex : mesh.vertices) vertex = poses.world_from_map * vertex;
+    ReportMesh(truth, store.camera(), mesh, &report);
+  }
   std::cout << report.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
 }
 
@@ -94,8 +105,10 @@ void AddEvaluateCommand(CLI::App* app, ExitCode* exit_code) {
       "Prints JSON: photos registered, mean, median and largest error of the camera centres [mm] "
       "and rotations [deg] after the similarity that fits the centres best, those of each photo, "
       "and which are wrong (beyond 100 mm or 1 degree). With --surface or --laser also the points' "
-      "accuracy, completeness and F-score, and the bend of the flat wall [mm]; see "
-      "docs/evaluation.md. Photos are paired by the names they had where they came from.");
+      "accuracy, completeness and F-score, and the bend of the flat wall [mm], with --mesh those "
+      "of "
+      "the mesh too; see docs/evaluation.md. Photos are paired by the names they had where they "
+      "came from.");
   const auto arguments = std::make_shared<EvaluateArguments>();
   AddOptions(command, arguments.get());
   command->callback([arguments, exit_code] {

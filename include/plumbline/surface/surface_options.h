@@ -28,6 +28,9 @@ struct SurfaceOptions {
   // what moves within that is not sent again.
   int mesh_lattice_bits = 3;
 
+  // Connected sets of fewer faces are dropped: they hang on wrong matches.
+  int min_island_faces = 30;
+
   // Length of the map's unit; 1 once the map is georeferenced.
   double metres_per_map_unit = 1.0;
 
@@ -47,6 +50,7 @@ void VisitFields(SurfaceOptions& options, Visitor&& visit) {
   visit("landmark_lattice_bits", options.landmark_lattice_bits);
   visit("camera_lattice_bits", options.camera_lattice_bits);
   visit("mesh_lattice_bits", options.mesh_lattice_bits);
+  visit("min_island_faces", options.min_island_faces);
   visit("metres_per_map_unit", options.metres_per_map_unit);
   visit("block_side_m", options.block_side_m);
 }
