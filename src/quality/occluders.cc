@@ -23,26 +23,14 @@ struct Cast {
   std::array<Eigen::Vector3d, kPacketSize> centers;
 };
 
-// Six times the signed volume of a tetrahedron.
-double Volume(const Eigen::Vector3d& a,
+// Whether two points lie on different sides of a triangle's plane.
+bool AreApart(const Eigen::Vector3d& from,
+              const Eigen::Vector3d& to,
+              const Eigen::Vector3d& a,
               const Eigen::Vector3d& b,
-              const Eigen::Vector3d& c,
-              const Eigen::Vector3d& d) {
-  return (b - a).cross(c - a).dot(d - a);
-}
-
-// Whether the open segment crosses the triangle; its border counts as part of it.
-bool Crosses(const Eigen::Vector3d& from,
-             const Eigen::Vector3d& to,
-             const std::array<const Eigen::Vector3d*, 3>& corners) {
-  const double side_from = Volume(*corners[0], *corners[1], *corners[2], from);
-  const double side_to = Volume(*corners[0], *corners[1], *corners[2], to);
-  if (!(side_from * side_to < 0.0)) return false;
-  const double edge0 = Volume(from, to, *corners[0], *corners[1]);
-  const double edge1 = Volume(from, to, *corners[1], *corners[2]);
-  const double edge2 = Volume(from, to, *corners[2], *corners[0]);
-  return (edge0 >= 0.0 && edge1 >= 0.0 && edge2 >= 0.0) ||
-         (edge0 <= 0.0 && edge1 <= 0.0 && edge2 <= 0.0);
+              const Eigen::Vector3d& c) {
+  const Eigen::Vector3d normal = (b - a).cross(c - a);
+  return normal.dot(from - a) * normal.dot(to - a) < 0.0;
 }
 
 // Embree asks it of each candidate: 0 passes the candidate by.
@@ -56,11 +44,11 @@ void KeepTrueHits(const RTCFilterFunctionNArguments* args) {
     const unsigned geometry = RTCHitN_geomID(args->hit, args->N, i);
     const auto& corner = block.faces[face];
     const bool is_itself = geometry == cast.geometry && face == cast.faces[lane];
-    if (is_itself || !Crosses(cast.centers[lane],
-                              cast.eye,
-                              {&block.vertices[corner[0]].position_in_map,
-                               &block.vertices[corner[1]].position_in_map,
-                               &block.vertices[corner[2]].position_in_map})) {
+    if (is_itself || !AreApart(cast.centers[lane],
+                               cast.eye,
+                               block.vertices[corner[0]].position_in_map,
+                               block.vertices[corner[1]].position_in_map,
+                               block.vertices[corner[2]].position_in_map)) {
       args->valid[i] = 0;
     }
   }

@@ -16,8 +16,9 @@
 namespace plumb::internal {
 
 // The faces of a mesh as obstacles (Embree). Each block has a tree of its own: a change costs what
-// the changed blocks hold. Embree finds candidates in float; what it finds counts only if it holds
-// in double. Casting is thread-safe while nothing changes.
+// the changed blocks hold. Embree computes in float, and no ray slips through an edge that two
+// faces share; that a face does not hide itself or a neighbour behind it is told in double. Casting
+// is thread-safe while nothing changes.
 class Occluders {
  public:
   Occluders();

@@ -45,8 +45,7 @@ MapPublisher::MapPublisher(const ros::NodeHandle& handle,
       publishing_(kMaxDeltaQueue, [this](const MapDelta& delta) { PublishDelta(delta); }) {
   ros::NodeHandle own(handle);
   delta_publisher_ = own.advertise<plumbline::MapDelta>("map_delta", 1000);
-  camera_publisher_ =
-      own.advertise<sensor_msgs::CameraInfo>("session_camera", 1, /*latch=*/true);
+  camera_publisher_ = own.advertise<sensor_msgs::CameraInfo>("session_camera", 1, /*latch=*/true);
   sensor_msgs::CameraInfo camera_info = ToCameraInfoMsg(camera);
   camera_info.header = HeaderNow(options.camera_frame_id);
   camera_publisher_.publish(camera_info);

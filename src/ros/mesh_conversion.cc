@@ -69,8 +69,7 @@ plumbline::MeshBlock ToMeshBlockMsg(const QualityBlock& block) {
   for (std::size_t i = 0; i < block.mesh.faces.size(); ++i) {
     const auto& face = block.mesh.faces[i];
     msg.faces.insert(msg.faces.end(), face.begin(), face.end());
-    const FaceQuality quality =
-        i < block.qualities.size() ? block.qualities[i] : FaceQuality();
+    const FaceQuality quality = i < block.qualities.size() ? block.qualities[i] : FaceQuality();
     msg.gsd.push_back(quality.gsd);
     msg.sigma_per_px.push_back(quality.sigma_per_px);
     msg.num_views.push_back(quality.num_views);

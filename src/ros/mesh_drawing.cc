@@ -146,8 +146,8 @@ double StepOf(const std::map<PhotoId, Rigid3>& cam_from_map) {
   if (cam_from_map.size() < 2) return 1.0;
   double sum = 0.0;
   for (auto it = cam_from_map.begin(); std::next(it) != cam_from_map.end(); ++it) {
-    sum += (it->second.TargetOriginInSource() - std::next(it)->second.TargetOriginInSource())
-               .norm();
+    sum +=
+        (it->second.TargetOriginInSource() - std::next(it)->second.TargetOriginInSource()).norm();
   }
   return sum / static_cast<double>(cam_from_map.size() - 1);
 }
@@ -160,8 +160,7 @@ visualization_msgs::Marker DrawBlock(const QualityBlock& block,
                                      const Measure& measure,
                                      int id,
                                      const std_msgs::Header& header) {
-  auto marker =
-      MakeMarker(visualization_msgs::Marker::TRIANGLE_LIST, ToString(layer), id, header);
+  auto marker = MakeMarker(visualization_msgs::Marker::TRIANGLE_LIST, ToString(layer), id, header);
   marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
   const std::size_t num_faces = block.mesh.faces.size();
   if (num_faces == 0) {

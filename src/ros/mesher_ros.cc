@@ -44,11 +44,10 @@ MesherRos::MesherRos(const ros::NodeHandle& handle, const MesherRosOptions& opti
   delta_publisher_ = handle_.advertise<plumbline::MeshDelta>("mesh_delta", kDeltaQueue);
   gaps_publisher_ = handle_.advertise<plumbline::Gaps>("gaps", 1, /*latch=*/true);
   get_map_ = handle_.serviceClient<plumbline::GetMap>("get_map");
-  subscribers_ = {
-      handle_.subscribe("session_camera", 1, &MesherRos::OnCamera, this),
-      handle_.subscribe("metres_per_map_unit", 1, &MesherRos::OnScale, this),
-      handle_.subscribe("photo_verdict", kDeltaQueue, &MesherRos::OnVerdict, this),
-      handle_.subscribe("map_delta", kDeltaQueue, &MesherRos::OnMapDelta, this)};
+  subscribers_ = {handle_.subscribe("session_camera", 1, &MesherRos::OnCamera, this),
+                  handle_.subscribe("metres_per_map_unit", 1, &MesherRos::OnScale, this),
+                  handle_.subscribe("photo_verdict", kDeltaQueue, &MesherRos::OnVerdict, this),
+                  handle_.subscribe("map_delta", kDeltaQueue, &MesherRos::OnMapDelta, this)};
   diagnostics_.setHardwareID("mesher");
   diagnostics_.add("mesher", this, &MesherRos::Diagnose);
   timer_ = handle_.createWallTimer(ros::WallDuration(options_.display_period_s),
@@ -65,10 +64,11 @@ MesherRos::~MesherRos() { service_spinner_.stop(); }
 void MesherRos::OnMapDelta(const plumbline::MapDelta& msg) {
   const std::optional<MapDelta> delta = FromMapDeltaMsg(msg);
   if (!delta) {
-    ROS_ERROR_THROTTLE(kComplainEvery_s,
-                       "map delta %u makes no sense and is left out: arrays of unlike lengths, or a "
-                       "value that is not finite",
-                       msg.sequence);
+    ROS_ERROR_THROTTLE(
+        kComplainEvery_s,
+        "map delta %u makes no sense and is left out: arrays of unlike lengths, or a "
+        "value that is not finite",
+        msg.sequence);
     return;
   }
   const ros::Time stamp = msg.header.stamp;
@@ -136,9 +136,11 @@ void MesherRos::BeginAnew() {
 }
 
 void MesherRos::Apply(const MapDelta& delta, const ros::Time& stamp) {
-  const bool is_known = !delta.is_snapshot && delta.sequence <= surface_->map_sequence();
-  if (is_known || TryApply(delta, stamp)) return;
-  CatchUp();
+  const bool is_old = !delta.is_snapshot && delta.sequence <= surface_->map_sequence();
+  if (is_old && delta.sequence > 1) return;  // A snapshot had it.
+  if (!is_old && TryApply(delta, stamp)) return;
+  CatchUp();  // One was missed, or the mapper has begun another map.
+  if (delta.sequence == surface_->map_sequence() + 1) TryApply(delta, stamp);
 }
 
 bool MesherRos::TryApply(const MapDelta& delta, const ros::Time& stamp) {
@@ -202,8 +204,7 @@ void MesherRos::TellNow() {
   publisher_.PublishRefused(refused_, quality_->views());
   if (!quality_->camera()) return;
   const double block_side = options_.surface.block_side_m / options_.surface.metres_per_map_unit;
-  const std::vector<Gap> gaps =
-      FindGaps(look_.gaps, quality_->blocks(), look_.measure, block_side);
+  const std::vector<Gap> gaps = FindGaps(look_.gaps, quality_->blocks(), look_.measure, block_side);
   num_gaps_ = gaps.size();
   plumbline::Gaps msg = ToGapsMsg(gaps, look_.gaps, look_.measure, NewestView());
   msg.header = publisher_.HeaderNow();
@@ -225,8 +226,7 @@ plumbline::MeshDelta MesherRos::MakeMessage(const std::vector<BlockId>& blocks,
     const auto found = quality_->blocks().find(id);
     QualityBlock gone;
     gone.mesh.id = id;
-    msg.blocks.push_back(
-        ToMeshBlockMsg(found != quality_->blocks().end() ? found->second : gone));
+    msg.blocks.push_back(ToMeshBlockMsg(found != quality_->blocks().end() ? found->second : gone));
   }
   return msg;
 }

@@ -3,7 +3,6 @@
 #include "rviz/flight_panel.h"
 
 #include <plumbline/SetMeshDisplay.h>
-#include <pluginlib/class_list_macros.hpp>
 #include <ros/service.h>
 #include <rviz/display.h>
 #include <rviz/display_group.h>
@@ -16,6 +15,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <pluginlib/class_list_macros.hpp>
 #include <thread>
 
 namespace plumb::rviz_panel {
@@ -27,10 +27,8 @@ struct LayerName {
   const char* topic;
   const char* label;
 };
-constexpr LayerName kLayers[] = {{"gsd", "GSD"},
-                                 {"redundancy", "Redundancy"},
-                                 {"accuracy", "Accuracy"},
-                                 {"plain", "Plain"}};
+constexpr LayerName kLayers[] = {
+    {"gsd", "GSD"}, {"redundancy", "Redundancy"}, {"accuracy", "Accuracy"}, {"plain", "Plain"}};
 
 // The view that has all of the map in it: as in rviz/flight.rviz.
 constexpr double kWholeDistance = 20.0;
@@ -139,9 +137,10 @@ void FlightPanel::ShowStatus() {
                             Text(status_.num_waiting(now_s)),
                             Text(status_.num_refused(now_s))));
   const std::optional<double> behind_s = status_.seconds_behind(now_s);
-  behind_->setText(behind_s ? QStringLiteral("<b>%1 s</b> behind the camera")
-                                  .arg(QString::number(*behind_s, 'f', 1))
-                            : QStringLiteral("– s behind the camera"));
+  behind_->setText(
+      behind_s
+          ? QStringLiteral("<b>%1 s</b> behind the camera").arg(QString::number(*behind_s, 'f', 1))
+          : QStringLiteral("– s behind the camera"));
   trouble_->setText(QString::fromStdString(status_.trouble(now_s)));
   trouble_->setVisible(!trouble_->text().isEmpty());
 }
@@ -173,8 +172,8 @@ void FlightPanel::OnLegend(const sensor_msgs::Image& msg) {
                      static_cast<int>(msg.height),
                      static_cast<int>(msg.step),
                      QImage::Format_RGB888);
-  legend_->setPixmap(QPixmap::fromImage(image).scaledToWidth(
-      std::max(200, legend_->width()), Qt::SmoothTransformation));
+  legend_->setPixmap(QPixmap::fromImage(image).scaledToWidth(std::max(200, legend_->width()),
+                                                             Qt::SmoothTransformation));
 }
 
 void FlightPanel::OnLayer(int layer) {
@@ -256,8 +255,7 @@ void FlightPanel::OnGapClicked(int row) {
   view->subProp("Focal Point")->subProp("Z")->setValue(center.z);
   view->subProp("Distance")->setValue(1.6 * distance);
   view->subProp("Yaw")->setValue(std::atan2(gap.normal_in_map.y, gap.normal_in_map.x) + 0.3);
-  view->subProp("Pitch")->setValue(
-      std::asin(std::clamp(gap.normal_in_map.z, -1.0, 1.0)) + 0.2);
+  view->subProp("Pitch")->setValue(std::asin(std::clamp(gap.normal_in_map.z, -1.0, 1.0)) + 0.2);
 }
 
 void FlightPanel::OnWholeView() {

@@ -62,9 +62,7 @@ class PanelTest : public testing::Test {
     return panel_->findChild<Widget*>(name);
   }
 
-  static std::string TextOf(const char* label) {
-    return Find<QLabel>(label)->text().toStdString();
-  }
+  static std::string TextOf(const char* label) { return Find<QLabel>(label)->text().toStdString(); }
 
   static void Press(const char* button) {
     QTest::mouseClick(Find<QPushButton>(button), Qt::LeftButton);
