@@ -120,6 +120,7 @@ if(benchmark_FOUND AND APRILTAG_FOUND AND TARGET opencv_aruco)
   # The surface is held against a solve from nothing.
   target_link_libraries(surface_benchmark PRIVATE plumb_surface CGAL::CGAL PkgConfig::MAXFLOW
                         GTest::gtest nlohmann_json::nlohmann_json)
+  target_link_libraries(quality_benchmark PRIVATE plumb_quality nlohmann_json::nlohmann_json)
   # The marker detector is measured beside two others.
   target_link_libraries(marker_benchmark PRIVATE plumb_marker opencv_aruco PkgConfig::APRILTAG
                         nlohmann_json::nlohmann_json)
