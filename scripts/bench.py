@@ -13,10 +13,11 @@ import os
 import sys
 import traceback
 
-from benchmark import realism, reconstruction, scenarios
+from benchmark import realism, reconstruction, scenarios, surface
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-SECTIONS = {"reconstruction": reconstruction, "realism": realism, "scenarios": scenarios}
+SECTIONS = {"reconstruction": reconstruction, "realism": realism, "scenarios": scenarios,
+            "surface": surface}
 
 
 def built_program():

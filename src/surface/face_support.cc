@@ -4,49 +4,41 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace plumb {
 
-FaceEvidence FaceSupport::EvidenceOf(const RayScene& scene, const FaceSlots& slots) {
+bool FaceSupport::IsSupported(const RayScene& scene, const FaceSlots& slots) {
   std::array<Eigen::Vector3d, 3> corners;
   for (std::size_t k = 0; k < 3; ++k) corners[k] = scene.PlaceOf(slots[k]);
-  const Eigen::Vector3d normal =
-      (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
-  FaceEvidence evidence;
-  double nearest = std::numeric_limits<double>::infinity();
-  std::array<std::vector<PhotoId>, 3> outside;
+  const Eigen::Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+  double nearest_squared = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < 3; ++k) {
-    scene.RaysOf(slots[k], &rays_[k]);
-    for (const SceneRay& ray : rays_[k]) {
-      const Eigen::Vector3d direction = ray.camera - corners[k];
-      const double distance = direction.norm();
-      nearest = std::min(nearest, distance);
-      const double sine = normal.dot(direction) / distance;
-      if (!(sine > 0.0)) continue;
-      ++evidence.num_outside[k];
-      evidence.max_sine = std::max(evidence.max_sine, sine);
-      outside[k].push_back(ray.photo);
-      if (k < 2) continue;
-      const auto sees = [&](std::size_t i) {
-        return std::binary_search(outside[i].begin(), outside[i].end(), ray.photo);
-      };
-      if (!sees(0) || !sees(1)) continue;
-      ++evidence.num_common;
-      evidence.max_common_sine = std::max(evidence.max_common_sine, sine);
+    scene.RaysOf(slots[k], &rays_);
+    bool is_seen = false;
+    std::size_t num_common = 0;
+    for (const SceneRay& ray : rays_) {
+      const Eigen::Vector3d to_camera = ray.camera - corners[k];
+      nearest_squared = std::min(nearest_squared, to_camera.squaredNorm());
+      if (!(normal.dot(to_camera) > 0.0)) continue;
+      is_seen = true;
+      if (k == 0) {
+        common_.resize(++num_common);
+        common_.back() = ray.photo;
+      } else if (std::binary_search(common_.begin(), common_.end(), ray.photo)) {
+        common_[num_common++] = ray.photo;  // All before it are less than what is searched for.
+      }
     }
+    if (!is_seen) return false;
+    common_.resize(num_common);
   }
+  double longest_squared = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
-    evidence.longest_edge =
-        std::max(evidence.longest_edge, (corners[k] - corners[(k + 1) % 3]).norm() / nearest);
+    longest_squared = std::max(longest_squared, (corners[k] - corners[(k + 1) % 3]).squaredNorm());
   }
-  return evidence;
-}
-
-bool FaceSupport::IsSupported(const RayScene& scene, const FaceSlots& slots) {
-  const FaceEvidence evidence = EvidenceOf(scene, slots);
-  return std::all_of(
-      evidence.num_outside.begin(), evidence.num_outside.end(), [](int num) { return num > 0; });
+  const double bound = max_edge_ratio_ * max_edge_ratio_ * nearest_squared;
+  return longest_squared <= (common_.empty() ? bound : 4.0 * bound);
 }
 
 }  // namespace plumb

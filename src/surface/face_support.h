@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "plumbline/surface/surface_options.h"
@@ -11,28 +10,24 @@
 
 namespace plumb {
 
-// What rays say for a face between free and occupied.
-struct FaceEvidence {
-  std::array<int, 3> num_outside = {0, 0, 0};  // Rays of each corner from the free side.
-  int num_common = 0;                          // Photos that see all three corners from there.
-  double max_sine = 0.0;                       // Between the face and the steepest ray from there.
-  double max_common_sine = 0.0;
-  double longest_edge = 0.0;  // Over the distance of the nearest camera of its ends.
-};
-
 // Whether rays say that a face between free and occupied is a surface, and not what closes the
-// occupied space where nobody looked.
+// occupied space where nobody looked. It is one if
+//   - each corner is seen from the free side of the face's plane: what closes the space behind a
+//     wall has all cameras on its occupied side;
+//   - its longest edge is at most max_edge_ratio times the distance of the nearest camera of its
+//     corners, or at most twice that and one photo shows all three corners from the free side: long
+//     faces span what no landmark is on, an open side most of all.
 class FaceSupport {
  public:
-  explicit FaceSupport(const SurfaceOptions& options) : options_(options) {}
+  explicit FaceSupport(const SurfaceOptions& options) : max_edge_ratio_(options.max_edge_ratio) {}
 
   // A function of the corners' places and rays alone.
-  FaceEvidence EvidenceOf(const RayScene& scene, const FaceSlots& slots);
   bool IsSupported(const RayScene& scene, const FaceSlots& slots);
 
  private:
-  SurfaceOptions options_;
-  std::array<std::vector<SceneRay>, 3> rays_;
+  double max_edge_ratio_;
+  std::vector<SceneRay> rays_;
+  std::vector<PhotoId> common_;  // Photos that show all corners so far, ascending.
 };
 
 }  // namespace plumb

@@ -33,6 +33,7 @@ std::vector<std::string> SurfaceOptions::Problems() const {
                    "mesh_lattice_bits",
                    "in [0, 16]",
                    mesh_lattice_bits);
+  problems.Require(max_edge_ratio > 0.0, "max_edge_ratio", "above 0", max_edge_ratio);
   problems.Require(min_island_faces >= 0, "min_island_faces", "at least 0", min_island_faces);
   problems.Require(
       metres_per_map_unit > 0.0, "metres_per_map_unit", "above 0", metres_per_map_unit);

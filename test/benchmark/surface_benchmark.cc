@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@
 #include "plumbline/surface/surface_mesher.h"
 #include "surface/cell_weights.h"
 #include "surface/labelled_cells.h"
+#include "test/benchmark/cpu_watch.h"
 #include "test/benchmark/delta_file.h"
 #include "test/benchmark/surface_truth.h"
 #include "test/benchmark/synthetic_flight.h"
@@ -70,28 +72,45 @@ double Median(std::vector<double> values) {
   return *middle;
 }
 
-double TotalSeconds(const SurfaceReport& report) {
-  return report.scene_s + report.tetrahedra_s + report.weights_s + report.cut_s + report.mesh_s;
+// What one delta took: CPU seconds of the whole, wall seconds of its stages.
+struct Turn {
+  SurfaceReport report;
+  double cpu_s = 0.0;
+  std::size_t num_faces_sent = 0;
+};
+
+Turn Apply(const MapDelta& delta, SurfaceMesher* mesher) {
+  test::CpuWatch watch;
+  const SurfaceUpdate update = mesher->Apply(delta).value();
+  Turn turn{update.report, watch.Restart(), 0};
+  for (const MeshBlock& block : update.mesh.blocks) turn.num_faces_sent += block.faces.size();
+  return turn;
 }
 
-// Medians over deltas from `begin` on, of each stage and of what was done.
-Json Medians(const std::vector<SurfaceReport>& reports, std::size_t begin, std::size_t end) {
-  begin = std::min(begin, reports.size());
-  end = std::min(end, reports.size());
+// Of the deltas from `begin` to `end`.
+Json Medians(const std::vector<Turn>& turns, std::size_t begin, std::size_t end) {
+  begin = std::min(begin, turns.size());
+  end = std::min(end, turns.size());
   const auto median = [&](auto&& value_of) {
     std::vector<double> values;
     for (std::size_t i = begin; i < end; ++i) {
-      values.push_back(static_cast<double>(value_of(reports[i])));
+      values.push_back(static_cast<double>(value_of(turns[i].report)));
     }
     return Median(std::move(values));
   };
+  std::vector<double> cpu_ms;
+  std::vector<double> num_sent;
+  for (std::size_t i = begin; i < end; ++i) {
+    cpu_ms.push_back(1e3 * turns[i].cpu_s);
+    num_sent.push_back(static_cast<double>(turns[i].num_faces_sent));
+  }
   using Report = SurfaceReport;
-  return {{"total_ms", 1e3 * median([](const Report& r) { return TotalSeconds(r); })},
-          {"scene_ms", 1e3 * median([](const Report& r) { return r.scene_s; })},
-          {"tetrahedra_ms", 1e3 * median([](const Report& r) { return r.tetrahedra_s; })},
-          {"weights_ms", 1e3 * median([](const Report& r) { return r.weights_s; })},
-          {"cut_ms", 1e3 * median([](const Report& r) { return r.cut_s; })},
-          {"mesh_ms", 1e3 * median([](const Report& r) { return r.mesh_s; })},
+  return {{"total_ms", Median(cpu_ms)},
+          {"scene_wall_ms", 1e3 * median([](const Report& r) { return r.scene_s; })},
+          {"tetrahedra_wall_ms", 1e3 * median([](const Report& r) { return r.tetrahedra_s; })},
+          {"weights_wall_ms", 1e3 * median([](const Report& r) { return r.weights_s; })},
+          {"cut_wall_ms", 1e3 * median([](const Report& r) { return r.cut_s; })},
+          {"mesh_wall_ms", 1e3 * median([](const Report& r) { return r.mesh_s; })},
           {"landmarks_added", median([](const Report& r) { return r.num_landmarks_added; })},
           {"landmarks_moved", median([](const Report& r) { return r.num_landmarks_moved; })},
           {"reinserted", median([](const Report& r) { return r.num_landmarks_reinserted; })},
@@ -100,7 +119,8 @@ Json Medians(const std::vector<SurfaceReport>& reports, std::size_t begin, std::
           {"rays_cast", median([](const Report& r) { return r.num_rays_cast; })},
           {"cells_changed", median([](const Report& r) { return r.num_cells_changed; })},
           {"labels_changed", median([](const Report& r) { return r.num_labels_changed; })},
-          {"faces_checked", median([](const Report& r) { return r.num_faces_checked; })}};
+          {"faces_checked", median([](const Report& r) { return r.num_faces_checked; })},
+          {"faces_sent", Median(num_sent)}};
 }
 
 // Weights, labels and mesh against those from scratch; throws if they differ.
@@ -136,53 +156,39 @@ Json Replay(const std::string& path, std::size_t check_every) {
   const std::uint64_t bytes_before = CurrentProcessUsage().peak_memory_bytes;
   SurfaceMesher mesher{SurfaceOptions()};
   Checker checker;
-  std::vector<SurfaceReport> reports;
-  std::vector<double> num_faces_sent;
+  std::vector<Turn> turns;
   for (const MapDelta& delta : deltas) {
-    const SurfaceUpdate update = mesher.Apply(delta).value();
-    reports.push_back(update.report);
-    double num_sent = 0.0;
-    for (const MeshBlock& block : update.mesh.blocks) {
-      num_sent += static_cast<double>(block.faces.size());
-    }
-    num_faces_sent.push_back(num_sent);
-    if (check_every > 0) checker.Check(delta, mesher, reports.size() % check_every == 0);
+    turns.push_back(Apply(delta, &mesher));
+    if (check_every > 0) checker.Check(delta, mesher, turns.size() % check_every == 0);
   }
   const std::uint64_t bytes_after = CurrentProcessUsage().peak_memory_bytes;
-  const SurfaceReport& last = reports.back();
-  std::vector<double> totals;
-  double sum_s = 0.0;
-  for (const SurfaceReport& report : reports) {
-    totals.push_back(1e3 * TotalSeconds(report));
-    sum_s += TotalSeconds(report);
-  }
-  std::vector<double> sorted = totals;
-  std::sort(sorted.begin(), sorted.end());
+  std::vector<double> sorted_ms;
+  for (const Turn& turn : turns) sorted_ms.push_back(1e3 * turn.cpu_s);
+  std::sort(sorted_ms.begin(), sorted_ms.end());
 
   MapReplica map;
   for (const MapDelta& delta : deltas) map.Apply(delta);
   SurfaceMesher fresh{SurfaceOptions()};
-  const SurfaceReport rebuilt = fresh.Apply(map.Snapshot())->report;
-  const std::size_t num = reports.size();
+  const double rebuild_s = Apply(map.Snapshot(), &fresh).cpu_s;
+  const std::size_t num = turns.size();
+  const SurfaceReport& last = turns.back().report;
   return {{"deltas", num},
           {"vertices", last.num_vertices},
           {"rays", last.num_rays},
           {"cells", last.num_cells},
           {"faces", last.num_faces},
           {"checked", checker.num_checked()},
-          {"median_ms", Median(totals)},
-          {"p95_ms", sorted[sorted.size() * 95 / 100]},
-          {"max_ms", sorted.back()},
-          {"sum_s", sum_s},
-          {"faces_sent", Median(num_faces_sent)},
-          {"rebuild_ms", 1e3 * TotalSeconds(rebuilt)},
+          {"median_ms", Median(sorted_ms)},
+          {"p95_ms", sorted_ms[num * 95 / 100]},
+          {"max_ms", sorted_ms.back()},
+          {"sum_s", 1e-3 * std::accumulate(sorted_ms.begin(), sorted_ms.end(), 0.0)},
+          {"rebuild_ms", 1e3 * rebuild_s},
           {"memory_mib", static_cast<double>(bytes_after - bytes_before) / 1048576.0},
-          {"all", Medians(reports, 0, num)},
-          {"100_to_200", Medians(reports, 100, 200)},
-          {"last_100", Medians(reports, num > 100 ? num - 100 : 0, num)},
-          {"rebuilds",
-           std::count_if(reports.begin(), reports.end(), [](const SurfaceReport& report) {
-             return report.is_rebuilt;
+          {"all", Medians(turns, 0, num)},
+          {"100_to_200", Medians(turns, 100, 200)},
+          {"last_100", Medians(turns, num > 100 ? num - 100 : 0, num)},
+          {"rebuilds", std::count_if(turns.begin(), turns.end(), [](const Turn& turn) {
+             return turn.report.is_rebuilt;
            })}};
 }
 

@@ -81,7 +81,7 @@ class RandomMap {
   }
 
   Eigen::Vector3d AnyPoint() {
-    return {random_.Uniform(-3, 3), random_.Uniform(-0.3, 0.3), random_.Uniform(-2, 2)};
+    return {random_.Uniform(-3, 3), random_.Uniform(-0.1, 0.1), random_.Uniform(-2, 2)};
   }
 
   void AddView() {

@@ -28,6 +28,10 @@ struct SurfaceOptions {
   // what moves within that is not sent again.
   int mesh_lattice_bits = 3;
 
+  // Longest edge of a face that is kept, over the distance of the nearest camera; twice that for a
+  // face whose corners one photo shows together.
+  double max_edge_ratio = 0.05;
+
   // Connected sets of fewer faces are dropped: they hang on wrong matches.
   int min_island_faces = 30;
 
@@ -50,6 +54,7 @@ void VisitFields(SurfaceOptions& options, Visitor&& visit) {
   visit("landmark_lattice_bits", options.landmark_lattice_bits);
   visit("camera_lattice_bits", options.camera_lattice_bits);
   visit("mesh_lattice_bits", options.mesh_lattice_bits);
+  visit("max_edge_ratio", options.max_edge_ratio);
   visit("min_island_faces", options.min_island_faces);
   visit("metres_per_map_unit", options.metres_per_map_unit);
   visit("block_side_m", options.block_side_m);
