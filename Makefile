@@ -3,6 +3,8 @@
 # `make help` lists the targets. Debian's own python3 must come first: catkin and ROS's scripts need it.
 export PATH := /usr/bin:$(PATH)
 SHELL := /bin/bash
+# For cmake's make as well: its folders are of no interest.
+MAKEFLAGS += --no-print-directory
 # Clones of the project share what ccache holds: their own path is no part of its keys.
 export CCACHE_BASEDIR := $(CURDIR)
 export CCACHE_NOHASHDIR := 1
@@ -25,13 +27,13 @@ $(BUILD)/CMakeCache.txt:
 	cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=RelWithDebInfo
 
 build: deps ## Build all: the core, the command line, the ROS nodes
-	@$(MAKE) --no-print-directory $(BUILD)/CMakeCache.txt
+	@$(MAKE) $(BUILD)/CMakeCache.txt
 	cmake --build $(BUILD) -j$(JOBS)
 
 test: build ## Build and run every test: the core's, the ROS graph's, and the core's under ASan and UBSan
 	cmake --build $(BUILD) -j$(JOBS) --target tests
 	source devel/setup.bash && ctest --test-dir $(BUILD) --output-on-failure
-	@$(MAKE) --no-print-directory test-sanitize
+	@$(MAKE) test-sanitize
 
 test-sanitize: deps ## Run the core's tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	@test -f $(SANITIZED)/CMakeCache.txt || cmake -S . -B $(SANITIZED) \
@@ -45,6 +47,8 @@ bench: build ## Measure accuracy and seconds a photo on the shared and the simul
 has-photos:
 	@test "$(PHOTOS)" = "$(SIMULATED)/photos" -o -d "$(PHOTOS)" || { \
 	  echo "demo: no folder $(PHOTOS): give PHOTOS=dir CAMERA=camera.yaml, or neither" >&2; exit 1; }
+	@test "$(origin PHOTOS)" != file -o "$(origin CAMERA)" = file || { \
+	  echo "demo: CAMERA is of your own photos: give PHOTOS=dir with it, or neither" >&2; exit 1; }
 
 # Made anew when the program or the scenario is newer.
 $(SIMULATED)/.complete: devel/lib/plumbline/plumbline config/scenarios/demo.yaml
@@ -53,7 +57,7 @@ $(SIMULATED)/.complete: devel/lib/plumbline/plumbline config/scenarios/demo.yaml
 	touch $@
 
 demo: has-photos build ## Fly a simulated facade, or PHOTOS= with CAMERA=, through the live ROS graph and RViz
-	@test "$(PHOTOS)" != "$(SIMULATED)/photos" || $(MAKE) --no-print-directory $(SIMULATED)/.complete
+	@test "$(PHOTOS)" != "$(SIMULATED)/photos" || $(MAKE) $(SIMULATED)/.complete
 	source devel/setup.bash && scripts/demo.py --photos "$(PHOTOS)" --camera "$(CAMERA)" --out $(BUILD)/demo
 
 docs: build ## Write the generated pages of docs/ anew
@@ -65,7 +69,7 @@ format: ## Format all C++ sources with clang-format-14
 
 lint: ## Check format, clang-tidy-14, layers and generated pages
 	@scripts/install_dependencies.sh --lint
-	@$(MAKE) --no-print-directory build
+	@$(MAKE) build
 	scripts/lint.sh $(BUILD)
 
 clean: ## Remove everything that was built

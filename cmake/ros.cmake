@@ -100,6 +100,13 @@ add_test(NAME parameters_page_is_current
          COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/scripts/parameters_doc.py --check
                  $<TARGET_FILE:list_parameters>)
 
+# Of scripts/; none needs a ROS master.
+file(GLOB script_tests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/scripts/*_test.py)
+foreach(script_test ${script_tests})
+  get_filename_component(name ${script_test} NAME_WE)
+  add_test(NAME ${name} COMMAND /usr/bin/python3 ${script_test})
+endforeach()
+
 # Failures of these fail ctest; they are built by the target `tests`.
 if(CATKIN_ENABLE_TESTING)
   find_package(rostest REQUIRED)

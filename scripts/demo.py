@@ -12,6 +12,7 @@ import argparse
 import json
 import os
 import pathlib
+import re
 import shutil
 import signal
 import socket
@@ -20,9 +21,14 @@ import sys
 import threading
 import time
 
+import yaml
+
 import fly_photos
 
 START_DEADLINE_S = 60.0
+POLL_S = 0.1
+READ_S = 5.0  # For the last lines of a launch that has ended.
+QUEUE_S = 2.0  # A photo that waits no longer came while another one was in work.
 DRAW_S = 3.0  # RViz draws ten times a second, in software a good deal slower.
 
 
@@ -48,26 +54,94 @@ def start_virtual_display():
     return server
 
 
+def check_camera(path):
+    """Ends with what is wrong if a file is no camera calibration at all; the nodes check the rest."""
+    cure = "give CAMERA= the ROS camera_info YAML of the camera that took the photos"
+    try:
+        content = yaml.safe_load(path.read_text())
+    except OSError as error:
+        sys.exit(f"{path}: cannot be read: {error.strerror}; {cure}")
+    except (UnicodeDecodeError, yaml.YAMLError):
+        sys.exit(f"{path}: is no YAML; {cure}")
+    for name in ("image_width", "image_height", "camera_matrix"):
+        if not isinstance(content, dict) or name not in content:
+            sys.exit(f"{path}: has no {name}; {cure}")
+
+
+class Launch:
+    """roslaunch, whose output is shown and searched for why it ends."""
+
+    def __init__(self, words):
+        self._fatal = ""
+        self._process = subprocess.Popen(
+            words, start_new_session=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+            text=True, errors="replace", env={**os.environ, "PYTHONUNBUFFERED": "1"})
+        self._reader = threading.Thread(target=self._show, daemon=True)
+        self._reader.start()
+
+    def _show(self):
+        for line in self._process.stdout:
+            print(line, end="", flush=True)
+            if "FATAL" in line:
+                self._fatal = re.sub(r"\x1b\[[0-9;]*m|\[FATAL\] *|\[\d+\.\d+\]: *", "", line).strip()
+
+    def check(self):
+        """Ends with the reason if the launch has ended."""
+        if self._process.poll() is None:
+            return
+        self._reader.join(READ_S)
+        sys.exit("the flight has ended by itself: " + (self._fatal or "see its messages above"))
+
+    def wait_for(self, is_so, deadline_s):
+        """Waits until something is so; False if it is not in time. Ends if the launch does."""
+        deadline = time.monotonic() + deadline_s
+        while not is_so():
+            self.check()
+            if time.monotonic() > deadline:
+                return False
+            time.sleep(POLL_S)
+        return True
+
+    def end(self):
+        if self._process.poll() is None:
+            self._process.send_signal(signal.SIGINT)
+        self._process.wait()
+        self._reader.join(READ_S)
+        if not self._reader.is_alive():
+            self._process.stdout.close()
+
+
 class Verdicts:
     """The latest verdict of each photo, as they are heard."""
 
     def __init__(self):
-        self._changed = threading.Condition()
+        self._lock = threading.Lock()
         self._by_name = {}
+        self._waits_s = []
 
     def hear(self, message):
-        with self._changed:
+        with self._lock:
             self._by_name[message.name] = message
-            self._changed.notify_all()
+            if message.attempt == 1:  # Later ones follow other photos, not the queue.
+                self._waits_s.append(waited_s(message))
 
-    def wait_for(self, num_photos, deadline_s):
-        """Waits until so many photos have a verdict; False if they do not in time."""
-        with self._changed:
-            return self._changed.wait_for(lambda: len(self._by_name) >= num_photos, deadline_s)
+    def num_photos(self):
+        with self._lock:
+            return len(self._by_name)
 
     def all(self):
-        with self._changed:
+        with self._lock:
             return [self._by_name[name] for name in sorted(self._by_name)]
+
+    def longest_wait_s(self):
+        with self._lock:
+            return max(self._waits_s, default=0.0)
+
+
+def waited_s(verdict):
+    """How long a photo lay in queues before its verdict."""
+    return verdict.verdict_s - (verdict.decode_s + verdict.features_s + verdict.retrieval_s +
+                                verdict.matching_s + verdict.pose_s)
 
 
 def take_picture(path):
@@ -76,29 +150,44 @@ def take_picture(path):
     print(f"Picture of the screen: {path}", flush=True)
 
 
-def fly(photos, card, verdicts, arguments):
-    """Leaves the photos on the card; returns how many were answered in time."""
+def fly(photos, card, launch, verdicts, arguments):
+    """Leaves the photos on the card and waits for their verdicts."""
     for number, photo in enumerate(photos, start=1):
         begin = time.monotonic()
-        fly_photos.leave_photo(photo, card)
+        fly_photos.leave_photo(photo, card / photo.relative_to(arguments.photos))
         if number in arguments.picture_at and number < len(photos):
-            verdicts.wait_for(number, arguments.deadline)
+            launch.wait_for(lambda: verdicts.num_photos() >= number, arguments.deadline)
             take_picture(arguments.out / f"rviz_{number:03d}.png")
+        launch.check()
         time.sleep(max(0.0, arguments.every - (time.monotonic() - begin)))
-    if not verdicts.wait_for(len(photos), arguments.deadline):
+    if not launch.wait_for(lambda: verdicts.num_photos() >= len(photos), arguments.deadline):
         print("Not all photos were answered in time.")
 
 
-def print_verdicts(verdicts):
+def describe_times(verdicts, longest_wait_s):
+    """One or two lines on how long photos took, or none without verdicts."""
+    if not verdicts:
+        return []
+    times_s = sorted(verdict.verdict_s for verdict in verdicts)
+    work_s = sorted(verdict.verdict_s - waited_s(verdict) for verdict in verdicts)
+    middle = len(verdicts) // 2
+    lines = [f"median {times_s[middle]:.2f} s from photo to verdict, "
+             f"{work_s[middle]:.2f} s of it work"]
+    if longest_wait_s > QUEUE_S:
+        lines.append("Photos came faster than this computer maps them: "
+                     f"they waited up to {longest_wait_s:.0f} s in the queue")
+    return lines
+
+
+def print_verdicts(heard):
+    verdicts = heard.all()
     for verdict in verdicts:
         print(f"  {verdict.name}: {verdict.status} after {verdict.verdict_s:.2f} s"
               + (f", {verdict.reason}: {verdict.hint}" if verdict.status != "accepted" else
-                 f", {verdict.num_inliers} matches agree"))
+                 f", {verdict.num_inliers} landmarks agree"))
     for status in ("accepted", "waiting", "refused"):
         print(f"{sum(verdict.status == status for verdict in verdicts)} {status}", end=", ")
-    times = sorted(verdict.verdict_s for verdict in verdicts)
-    if times:
-        print(f"median {times[len(times) // 2]:.2f} s from photo to verdict")
+    print(*describe_times(verdicts, heard.longest_wait_s()), sep="\n")
 
 
 def print_accuracy(session, truth):
@@ -125,7 +214,8 @@ def print_accuracy(session, truth):
             print(f"Largest bend of the flat wall: {result['wall']['max_bend_mm']:.1f} mm")
 
 
-def run_flight(arguments):
+def run_flight(launch, arguments):
+    """Flies; returns whether each photo was answered and one was accepted."""
     import rospy  # After ROS_MASTER_URI is set.
     from plumbline.msg import PhotoVerdict, StoredPhotos
     from std_srvs.srv import Trigger
@@ -134,32 +224,36 @@ def run_flight(arguments):
     verdicts = Verdicts()
     rospy.init_node("demo", anonymous=True, disable_signals=True)
     rospy.Subscriber("/plumbline/photo_verdict", PhotoVerdict, verdicts.hear, queue_size=1000)
-    rospy.wait_for_message("/plumbline/stored_photos", StoredPhotos, START_DEADLINE_S)
+    is_mapping = threading.Event()
+    rospy.Subscriber("/plumbline/stored_photos", StoredPhotos, lambda _: is_mapping.set())
+    if not launch.wait_for(is_mapping.is_set, START_DEADLINE_S):
+        sys.exit("the mapper does not answer; see its messages above")
     photos = fly_photos.list_photos(arguments.photos)
-    fly(photos, arguments.out / "card", verdicts, arguments)
+    fly(photos, arguments.out / "card", launch, verdicts, arguments)
     finish = rospy.ServiceProxy("/plumbline/finish", Trigger)
     answer = finish()
     if not answer.success:
         print(f"The flight is not finished: {answer.message}")
     take_picture(arguments.out / f"rviz_{len(photos):03d}.png")
-    print_verdicts(verdicts.all())
-    print_accuracy(session, arguments.photos.parent / "ground_truth")
+    print_verdicts(verdicts)
+    is_any_accepted = any(verdict.status == "accepted" for verdict in verdicts.all())
+    if is_any_accepted:
+        print_accuracy(session, arguments.photos.parent / "ground_truth")
+    else:
+        print("No photo was accepted: there is no map.")
     print(f"Report: {session / 'report.json'}")
-    return len(verdicts.all()) == len(photos)
+    return is_any_accepted and verdicts.num_photos() == len(photos)
 
 
 def wait_for_master(launch):
     import rosgraph
-    deadline = time.monotonic() + START_DEADLINE_S
-    while not rosgraph.is_master_online():
-        if launch.poll() is not None or time.monotonic() > deadline:
-            sys.exit("roslaunch did not start; see its messages above")
-        time.sleep(0.1)
+    if not launch.wait_for(rosgraph.is_master_online, START_DEADLINE_S):
+        sys.exit("roslaunch did not start; see its messages above")
 
 
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--photos", required=True, type=pathlib.Path, help="folder of photos")
+    parser.add_argument("--photos", required=True, type=pathlib.Path, help="folder of photos, with its sub-folders")
     parser.add_argument("--camera", required=True, type=pathlib.Path, help="camera_info YAML")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("build/demo"),
                         help="folder for pictures and session; emptied first")
@@ -176,6 +270,7 @@ def main():
     arguments = parse_arguments()
     if not arguments.photos.is_dir() or not fly_photos.list_photos(arguments.photos):
         sys.exit(f"{arguments.photos} holds no photos: give PHOTOS= and CAMERA=")
+    check_camera(arguments.camera)
     arguments.photos = arguments.photos.resolve()
     arguments.out = arguments.out.resolve()
     shutil.rmtree(arguments.out, ignore_errors=True)
@@ -184,17 +279,16 @@ def main():
     display = None if os.environ.get("DISPLAY") else start_virtual_display()
     port = free_port()
     os.environ["ROS_MASTER_URI"] = f"http://127.0.0.1:{port}"
-    launch = subprocess.Popen(
+    launch = Launch(
         ["roslaunch", "--no-summary", "-p", str(port), "plumbline", "flight.launch",
          f"photos:={arguments.out / 'card'}", f"camera:={arguments.camera.resolve()}",
          f"session:={arguments.out / 'session'}", "respawn:=false",
-         f"record:={str(arguments.record).lower()}"], start_new_session=True)
+         f"record:={str(arguments.record).lower()}"])
     try:
         wait_for_master(launch)
-        is_complete = run_flight(arguments)
+        is_complete = run_flight(launch, arguments)
     finally:
-        launch.send_signal(signal.SIGINT)
-        launch.wait()
+        launch.end()
         if display:
             display.terminate()
     sys.exit(0 if is_complete else 1)

@@ -11,17 +11,29 @@ import time
 PHOTO_SUFFIXES = {".jpg", ".jpeg", ".png", ".tif", ".tiff", ".bmp"}
 
 
-def list_photos(folder):
-    """The photos of a folder by name."""
-    return sorted(path for path in pathlib.Path(folder).iterdir()
-                  if path.suffix.lower() in PHOTO_SUFFIXES and not path.name.startswith("."))
+MAX_DEPTH = 3  # As deep as the folder watcher looks.
 
 
-def leave_photo(photo, folder, num_pieces=8, duration_s=0.1):
-    """Writes one photo under its final name, in pieces over some time."""
+def list_photos(folder, depth=MAX_DEPTH):
+    """The photos of a folder and its sub-folders by name; no hidden ones, links and sessions."""
+    photos = []
+    for path in sorted(pathlib.Path(folder).iterdir()):
+        if path.name.startswith("."):
+            continue
+        if path.is_dir():
+            if depth > 0 and not path.is_symlink() and not (path / "session.db").exists():
+                photos += list_photos(path, depth - 1)
+        elif path.suffix.lower() in PHOTO_SUFFIXES:
+            photos.append(path)
+    return photos
+
+
+def leave_photo(photo, target, num_pieces=8, duration_s=0.1):
+    """Writes one photo under its final path, in pieces over some time."""
     data = photo.read_bytes()
     size = max(1, -(-len(data) // num_pieces))
-    with open(pathlib.Path(folder) / photo.name, "wb") as file:
+    target.parent.mkdir(parents=True, exist_ok=True)
+    with open(target, "wb") as file:
         for begin in range(0, len(data), size):
             file.write(data[begin:begin + size])
             file.flush()
@@ -30,18 +42,19 @@ def leave_photo(photo, folder, num_pieces=8, duration_s=0.1):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("photos", help="folder of the photos to take")
-    parser.add_argument("folder", help="watched folder to leave them in")
+    parser.add_argument("photos", type=pathlib.Path,
+                        help="folder of the photos to take, with its sub-folders")
+    parser.add_argument("folder", type=pathlib.Path, help="watched folder to leave them in")
     parser.add_argument("--every", type=float, default=1.0, help="seconds from photo to photo")
     parser.add_argument("--first", type=int, default=0, help="skip this many photos")
     parser.add_argument("--count", type=int, default=None, help="leave at most this many photos")
     # roslaunch adds names of its own, __name:=fly_photos.
     arguments = parser.parse_args([word for word in sys.argv[1:] if ":=" not in word])
-    pathlib.Path(arguments.folder).mkdir(parents=True, exist_ok=True)
+    arguments.folder.mkdir(parents=True, exist_ok=True)
     photos = list_photos(arguments.photos)[arguments.first:]
     for photo in photos[:arguments.count]:
         begin = time.monotonic()
-        leave_photo(photo, arguments.folder)
+        leave_photo(photo, arguments.folder / photo.relative_to(arguments.photos))
         time.sleep(max(0.0, arguments.every - (time.monotonic() - begin)))
 
 

@@ -26,6 +26,7 @@ constexpr char kTemporaryPrefix[] = ".plumbline-";
   if (error == EACCES || error == EPERM || error == EROFS) {
     message += "; make it accessible or choose another folder";
   }
+  if (error == ENOTDIR) message += "; what stands before it is a file: choose another folder";
   throw std::runtime_error(message);
 }
 
@@ -85,7 +86,13 @@ void WriteFileAtomically(const std::string& path, const void* data, std::size_t 
   const std::string temporary_name =
       kTemporaryPrefix + std::to_string(::getpid()) + '-' + target.filename().string();
   TemporaryFile temporary((folder / temporary_name).string());
-  if (temporary.descriptor() < 0) Fail(path, "create", errno);
+  if (temporary.descriptor() < 0) {
+    if (errno == ENOENT) {
+      throw std::runtime_error(path + ": cannot create: there is no folder " + folder.string() +
+                               "; make it or choose another");
+    }
+    Fail(path, "create", errno);
+  }
   WriteAll(temporary.descriptor(), data, size, path);
   if (::fsync(temporary.descriptor()) != 0) Fail(path, "write", errno);
   if (!temporary.RenameTo(path)) Fail(path, "rename to", errno);

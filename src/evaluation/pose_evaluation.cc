@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <stdexcept>
 
 #include "evaluation/center_alignment.h"
@@ -55,6 +56,17 @@ std::vector<Pair> PairUp(const std::vector<ViewState>& views,
   return pairs;
 }
 
+std::vector<std::string> WithoutTruth(const std::vector<ViewState>& views,
+                                      const std::vector<TruePose>& truth) {
+  std::set<std::string> names;
+  for (const TruePose& pose : truth) names.insert(pose.photo);
+  std::vector<std::string> without;
+  for (const ViewState& view : views) {
+    if (names.count(view.name) == 0) without.push_back(view.name);
+  }
+  return without;
+}
+
 Centers CentersOf(const std::vector<Pair>& pairs) {
   Centers centers;
   for (const Pair& pair : pairs) {
@@ -96,6 +108,7 @@ PoseEvaluation EvaluatePoses(const std::vector<ViewState>& views,
                              const PoseTolerance& tolerance) {
   PoseEvaluation evaluation;
   const std::vector<Pair> pairs = PairUp(views, truth, &evaluation.missed);
+  evaluation.without_truth = WithoutTruth(views, truth);
   evaluation.num_truth = static_cast<int>(truth.size());
   evaluation.num_registered = static_cast<int>(pairs.size());
   evaluation.world_from_map = Align(pairs, tolerance.max_center_error_m);

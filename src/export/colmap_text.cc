@@ -165,7 +165,8 @@ void ExportColmapText(const MapDelta& snapshot, const Camera& camera, const std:
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) {
-    throw std::runtime_error(folder + ": cannot make this folder: " + error.message());
+    throw std::runtime_error(folder + ": cannot make this folder: " + error.message() +
+                             "; make its parent writable or choose another folder");
   }
   const Camera refined = CameraOf(snapshot, camera);
   const Model model = LinkUp(snapshot, refined);

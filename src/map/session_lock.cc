@@ -16,6 +16,11 @@ namespace plumb {
 
 SessionLock::SessionLock(const std::string& folder) {
   std::error_code error;
+  if (std::filesystem::is_regular_file(folder, error)) {
+    throw std::runtime_error(folder +
+                             ": is a file; a session is a folder: name a new one, or one to go on "
+                             "with");
+  }
   std::filesystem::create_directories(folder, error);
   if (error) {
     throw std::runtime_error(folder + ": cannot make this folder: " + error.message() +

@@ -22,8 +22,9 @@ constexpr double kMaxTargetMm = 5000.0;
 void CheckIds(int first, int count) {
   const int size = MarkerCodebook::Get().size();
   if (first >= 0 && first + count <= size) return;
-  throw std::invalid_argument("marker IDs are 0 to " + std::to_string(size - 1) + ": " +
-                              std::to_string(count) + " of them cannot begin at " +
+  const std::string ids = "marker IDs are 0 to " + std::to_string(size - 1);
+  if (count == 1) throw std::invalid_argument(ids + ", there is no " + std::to_string(first));
+  throw std::invalid_argument(ids + ": " + std::to_string(count) + " of them cannot begin at " +
                               std::to_string(first) + "; the last beginning is " +
                               std::to_string(size - count));
 }

@@ -7,6 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "plumbline/map/verdict_wording.h"
 #include "ros/picture_banner.h"
 
 namespace plumb::ros_adapter {
@@ -74,11 +75,8 @@ std::vector<BannerLine> BannerLines(const PhotoVerdict& verdict, const PhotoCoun
   if (verdict.reason != RefusalReason::kNone) title += ": " + Spaced(ToString(verdict.reason));
   std::vector<BannerLine> lines = {{title, 1.6, ColorOf(verdict.status)}};
   for (const std::string& line : WrapText(verdict.hint, 68)) lines.push_back({line, 1.1, kWhite});
-  std::string facts;
-  if (verdict.num_matches > 0) {
-    facts = std::to_string(verdict.num_inliers) + " of " + std::to_string(verdict.num_matches) +
-            " matches agree.  ";
-  }
+  std::string facts = DescribeAgreement(verdict);
+  if (!facts.empty()) facts += ".  ";
   facts += "Session: " + std::to_string(counts.num_accepted) + " accepted, " +
            std::to_string(counts.num_waiting) + " waiting, " + std::to_string(counts.num_refused) +
            " refused";

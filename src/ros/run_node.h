@@ -25,13 +25,25 @@ struct IncurableError : std::runtime_error {
 // process has a UTF-8 locale.
 void UseUtf8InLogs();
 
-// The whole of a node's main: reads its private parameters, builds it, spins. What stops it is said
-// as FATAL. Gives EX_CONFIG (78) for an IncurableError and for whatever is thrown while it is
-// built, EXIT_FAILURE for what came later: scripts/keep_running.sh starts it again then.
+// Throws IncurableError if a node of this one's name answers on the master. To register would
+// silently end that one, and the flight with it. What a crashed node left on the master does not
+// answer. Call it after ros::init and before the first NodeHandle, which registers.
+void RefuseToReplaceANode();
+
+// The whole of a node's main: refuses to replace a running one, reads its private parameters,
+// builds it, spins. What stops it is said as FATAL. Gives EX_CONFIG (78) for an IncurableError and
+// for whatever is thrown while it is built, EXIT_FAILURE for what came later:
+// scripts/keep_running.sh starts it again then.
 template <typename Node, typename Options>
 int RunNode(int argc, char** argv, const char* name) {
   UseUtf8InLogs();
   ros::init(argc, argv, name);
+  try {
+    RefuseToReplaceANode();
+  } catch (const IncurableError& error) {
+    ROS_FATAL("%s", error.what());
+    return EX_CONFIG;
+  }
   ros::NodeHandle handle;  // Outside the try block: its end would stop logging before the catch.
   std::unique_ptr<Node> node;
   try {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -73,9 +74,9 @@ class Mapper::Impl {
   std::optional<InitialPair> BestPairWith(PhotoId photo, PairSearch* search);
   const PairAttempt& TryPair(PhotoId photo1, PhotoId photo2);
   bool AreTakenInTurn(PhotoId photo1, PhotoId photo2) const;
-  bool IsLookalike(const PhotoRecord& photo1,
-                   const PhotoRecord& photo2,
-                   const Rigid3& cam2_from_cam1);
+  bool IsLookalikePair(const PhotoRecord& photo1,
+                       const PhotoRecord& photo2,
+                       const Rigid3& cam2_from_cam1);
   std::optional<InitialPair> BestPairOfMapWithout(PhotoId photo);
   std::vector<PhotoId> LikestPhotos(PhotoId photo) const;
   void TryStart(PhotoId photo);
@@ -96,7 +97,8 @@ class Mapper::Impl {
                        const std::vector<RankedView>& ranked,
                        MatchReach reach,
                        Location* location);
-  void RefuseLookalike(PhotoId photo, Location* location) const;
+  void RefuseLookalike(PhotoId photo, Location* location);
+  bool IsLookalike(double share, const std::function<bool()>& has_neighbor);
   bool IsBesideNeighbor(PhotoId photo, const Localization& localization) const;
   bool TryAccept(PhotoId photo);
   void AddViewAt(PhotoId photo, const Rigid3& cam_from_map);
@@ -129,6 +131,7 @@ class Mapper::Impl {
   Map map_;
   std::map<std::pair<PhotoId, PhotoId>, PairAttempt> pair_attempts_;
   std::vector<PhotoId> retry_queue_;
+  bool windows_repeat_ = false;                               // A photo fitted a second place.
   std::vector<std::pair<PhotoId, PhotoId>> unmatched_pairs_;  // Of a restored map.
 
   BundleConstraints constraints_;

@@ -33,16 +33,16 @@ const PairAttempt& Mapper::Impl::TryPair(PhotoId photo1, PhotoId photo2) {
     const PhotoRecord& record2 = records_.at(photo2);
     const std::vector<FeatureMatch>& matches = matches_.Match(record1, record2);
     it->second = TryInitialPair(options_.bootstrap, camera_, record1, record2, matches);
-    if (it->second.pair && IsLookalike(record1, record2, it->second.pair->cam2_from_cam1)) {
+    if (it->second.pair && IsLookalikePair(record1, record2, it->second.pair->cam2_from_cam1)) {
       it->second = {std::nullopt, RefusalReason::kAmbiguous};
     }
   }
   return it->second;
 }
 
-bool Mapper::Impl::IsLookalike(const PhotoRecord& photo1,
-                               const PhotoRecord& photo2,
-                               const Rigid3& cam2_from_cam1) {
+bool Mapper::Impl::IsLookalikePair(const PhotoRecord& photo1,
+                                   const PhotoRecord& photo2,
+                                   const Rigid3& cam2_from_cam1) {
   const std::vector<SeenPoint> points = PairAsSeen(camera_,
                                                    photo1,
                                                    photo2,
@@ -50,9 +50,7 @@ bool Mapper::Impl::IsLookalike(const PhotoRecord& photo1,
                                                    cam2_from_cam1,
                                                    options_.bootstrap.max_error_px);
   const double share = LookalikeShare(options_.lookalike, camera_, photo2, points, cam2_from_cam1);
-  return share >= options_.lookalike.max_found_share ||
-         (share >= options_.lookalike.max_unsupported_share &&
-          !AreTakenInTurn(photo1.id, photo2.id));
+  return IsLookalike(share, [&] { return AreTakenInTurn(photo1.id, photo2.id); });
 }
 
 // True if one is the next after the other, of those that could be analysed.

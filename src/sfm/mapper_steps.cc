@@ -170,7 +170,7 @@ void Mapper::Impl::LocateByMatches(PhotoId photo,
   seconds.pose_s += stopwatch.Restart();
 }
 
-void Mapper::Impl::RefuseLookalike(PhotoId photo, Location* location) const {
+void Mapper::Impl::RefuseLookalike(PhotoId photo, Location* location) {
   const PhotoRecord& record = records_.at(photo);
   Localization& localization = location->localization;
   const double share = LookalikeShare(options_.lookalike,
@@ -178,10 +178,19 @@ void Mapper::Impl::RefuseLookalike(PhotoId photo, Location* location) const {
                                       record,
                                       InliersAsSeen(map_, record, location->views, localization),
                                       localization.cam_from_map);
-  const bool is_lookalike =
-      share >= options_.lookalike.max_found_share ||
-      (share >= options_.lookalike.max_unsupported_share && !IsBesideNeighbor(photo, localization));
-  if (is_lookalike) localization.status = Localization::Status::kAmbiguous;
+  if (IsLookalike(share, [&] { return IsBesideNeighbor(photo, localization); })) {
+    localization.status = Localization::Status::kAmbiguous;
+  }
+}
+
+// Windows that have misled once may mislead again: from then on only neighbours count.
+bool Mapper::Impl::IsLookalike(double share, const std::function<bool()>& has_neighbor) {
+  if (share >= options_.lookalike.max_found_share) {
+    windows_repeat_ = true;
+    return true;
+  }
+  const bool is_suspect = windows_repeat_ || share >= options_.lookalike.max_unsupported_share;
+  return is_suspect && !has_neighbor();
 }
 
 // True if the photo taken before or after it sees a good part of its landmarks.

@@ -9,6 +9,7 @@
 #include "plumbline/calibration/calibration_report.h"
 #include "plumbline/calibration/calibrator.h"
 #include "plumbline/common/atomic_file.h"
+#include "tools/count_text.h"
 #include "tools/detect.h"
 #include "tools/photo_list.h"
 
@@ -37,7 +38,7 @@ std::vector<CalibrationPhoto> DetectAll(const CalibrateArguments& arguments, Con
       console->PrintLine(name + ": " + detected.problem);
       continue;
     }
-    console->PrintLine(name + ": " + std::to_string(detected.markers.size()) + " markers");
+    console->PrintLine(name + ": " + CountOf(detected.markers.size(), "marker"));
     photos.push_back(ToCalibrationPhoto(detected, false));
   }
   return photos;

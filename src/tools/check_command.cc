@@ -45,6 +45,21 @@ Json CheckPhoto(const Camera& camera, const std::string& folder, const std::stri
           {"cpu_s", CurrentProcessUsage().cpu_s - cpu_before_s}};
 }
 
+// Prints a line for each photo; kNothingLocated if none is usable.
+ExitCode Check(const CheckArguments& arguments) {
+  const Camera camera = ReadCameraYaml(arguments.camera);
+  const PhotoListing listing = ListPhotos(arguments.photos);
+  for (const std::string& line : Describe(listing)) std::cerr << line << '\n';
+  ExitCode exit_code = kNothingLocated;
+  for (const std::string& name : listing.photos) {
+    const Json photo = CheckPhoto(camera, arguments.photos, name);
+    std::cout << photo.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
+    if (photo["usable"]) exit_code = kDone;
+  }
+  if (exit_code != kDone) std::cerr << "none of the photos is usable\n";
+  return exit_code;
+}
+
 }  // namespace
 
 void AddCheckCommand(CLI::App* app, ExitCode* exit_code) {
@@ -53,22 +68,14 @@ void AddCheckCommand(CLI::App* app, ExitCode* exit_code) {
   command->footer(
       "Prints one line of JSON a photo: whether it is usable and why not, size and blur [px], "
       "number of features, wall and CPU seconds of its decoding and features. Other files are "
-      "named on standard error.");
+      "named on standard error.\n" +
+      std::string(kExitCodes));
   const auto arguments = std::make_shared<CheckArguments>();
   command->add_option("--photos", arguments->photos, "Folder of photos, with its sub-folders")
       ->required();
   command->add_option("--camera", arguments->camera, "Lens: ROS camera_info YAML, lengths in px")
       ->required();
-  command->callback([arguments, exit_code] {
-    const Camera camera = ReadCameraYaml(arguments->camera);
-    const PhotoListing listing = ListPhotos(arguments->photos);
-    for (const std::string& line : Describe(listing)) std::cerr << line << '\n';
-    for (const std::string& name : listing.photos) {
-      const Json photo = CheckPhoto(camera, arguments->photos, name);
-      std::cout << photo.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
-    }
-    *exit_code = kDone;
-  });
+  command->callback([arguments, exit_code] { *exit_code = Check(*arguments); });
 }
 
 }  // namespace plumb::tools

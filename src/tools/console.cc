@@ -5,6 +5,8 @@
 #include <iomanip>
 #include <sstream>
 
+#include "plumbline/map/verdict_wording.h"
+
 namespace plumb::tools {
 namespace {
 
@@ -19,8 +21,8 @@ std::string Describe(const PhotoVerdict& verdict) {
   if (verdict.reason != RefusalReason::kNone) line << ", " << ToString(verdict.reason);
   if (!verdict.hint.empty()) line << ": " << verdict.hint;
   if (verdict.num_inliers > 0) {
-    line << ", " << verdict.num_inliers << " inliers, " << verdict.num_matches << " matches, "
-         << std::setprecision(2) << verdict.median_error_px << " px";
+    line << ", " << DescribeAgreement(verdict) << " to " << std::setprecision(2)
+         << verdict.median_error_px << " px";
   }
   if (verdict.attempt > 1) {
     line << " (attempt " << verdict.attempt << ')';

@@ -10,7 +10,7 @@
 
 namespace plumb::tools {
 
-// One line: name, verdict, reason and hint or inliers and error, seconds.
+// One line: name, verdict, reason and hint, what agrees and its median error, seconds.
 std::string Describe(const PhotoVerdict& verdict);
 
 // Lines, and on a terminal a progress bar below them.
@@ -21,6 +21,8 @@ class Console {
   ~Console() { ClearBar(); }
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
+
+  bool is_terminal() const { return is_terminal_; }
 
   void PrintLine(const std::string& line);
 

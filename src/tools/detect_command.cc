@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -8,6 +9,7 @@
 #include "plumbline/common/atomic_file.h"
 #include "plumbline/common/options.h"
 #include "tools/commands.h"
+#include "tools/count_text.h"
 #include "tools/detect.h"
 #include "tools/options_yaml.h"
 #include "tools/photo_list.h"
@@ -40,7 +42,8 @@ MarkerDetectorOptions ReadOptions(const std::vector<std::string>& settings) {
   return options;
 }
 
-void Detect(const DetectArguments& arguments) {
+// kNothingLocated if no photo could be searched.
+ExitCode Detect(const DetectArguments& arguments) {
   const bool is_json = IsJsonOutput(arguments.output);
   const MarkerDetectorOptions options = ReadOptions(arguments.settings);
   std::optional<Camera> camera;
@@ -52,8 +55,7 @@ void Detect(const DetectArguments& arguments) {
     photos.push_back(DetectInPhoto(options, camera, arguments.photos, name));
     const DetectedPhoto& photo = photos.back();
     std::cerr << name << ": "
-              << (photo.problem.empty() ? std::to_string(photo.markers.size()) + " markers"
-                                        : photo.problem)
+              << (photo.problem.empty() ? CountOf(photo.markers.size(), "marker") : photo.problem)
               << '\n';
   }
   const std::string text = is_json ? ToJson(photos) : ToCsv(photos);
@@ -62,6 +64,12 @@ void Detect(const DetectArguments& arguments) {
   } else {
     WriteFileAtomically(arguments.output, text);
   }
+  const bool is_any_searched =
+      std::any_of(photos.begin(), photos.end(), [](const DetectedPhoto& photo) {
+        return photo.problem.empty();
+      });
+  if (!is_any_searched) std::cerr << "none of the photos could be searched\n";
+  return is_any_searched ? kDone : kNothingLocated;
 }
 
 }  // namespace
@@ -76,9 +84,11 @@ void AddDetectCommand(CLI::App* app, ExitCode* exit_code) {
   const auto arguments = std::make_shared<DetectArguments>();
   command->add_option("--photos", arguments->photos, "Folder of photos, with its sub-folders")
       ->required();
-  command->add_option("--camera",
-                      arguments->camera,
-                      "Lens, if known: ROS camera_info YAML; its distortion is undone");
+  command->add_option(
+      "--camera",
+      arguments->camera,
+      "Lens, if known: ROS camera_info YAML. Centre and ellipse stay those of the photo "
+      "as taken; pixel_from_marker of the JSON is then without distortion");
   command
       ->add_option("--output",
                    arguments->output,
@@ -86,10 +96,7 @@ void AddDetectCommand(CLI::App* app, ExitCode* exit_code) {
       ->capture_default_str();
   command->add_option("--set", arguments->settings, "KEY=VALUE: an option of the detector; repeat")
       ->allow_extra_args(false);
-  command->callback([arguments, exit_code] {
-    Detect(*arguments);
-    *exit_code = kDone;
-  });
+  command->callback([arguments, exit_code] { *exit_code = Detect(*arguments); });
 }
 
 }  // namespace plumb::tools

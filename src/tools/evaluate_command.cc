@@ -33,6 +33,7 @@ Json ToJson(const PoseEvaluation& evaluation) {
   return {{"registered", evaluation.num_registered},
           {"truth", evaluation.num_truth},
           {"missed", evaluation.missed},
+          {"without_truth", evaluation.without_truth},
           {"wrong", evaluation.wrong},
           {"center_error_mm", ToJson(evaluation.center_error_mm)},
           {"rotation_error_deg", ToJson(evaluation.rotation_error_deg)},
@@ -97,6 +98,10 @@ Json EvaluateByTruth(const EvaluateArguments& arguments, const SessionStore& sto
   const MapDelta snapshot = store.Snapshot();
   const PoseEvaluation poses =
       EvaluatePoses(WithOriginalNames(snapshot.views_set, store.Photos()), truth.photos);
+  if (poses.wrong.size() == poses.photos.size()) {
+    std::cerr << "all " << poses.photos.size() << " poses are wrong: " << arguments.poses
+              << " may be of another scene, or give its photos other names\n";
+  }
   Json report = ToJson(poses);
   std::vector<Eigen::Vector3d> points_in_world;
   for (const LandmarkState& landmark : snapshot.landmarks_set) {
@@ -141,11 +146,13 @@ void AddEvaluateCommand(CLI::App* app, ExitCode* exit_code) {
   command->footer(
       "Prints JSON: photos registered, mean, median and largest error of the camera centres [mm] "
       "and rotations [deg] after the similarity that fits the centres best, those of each photo, "
-      "and which are wrong (beyond 100 mm or 1 degree). With --surface or --laser also the points' "
-      "accuracy, completeness and F-score, and the bend of the flat wall [mm], with --mesh those "
-      "of the mesh too. With --survey, which needs no --truth, the errors of control and check "
-      "points [mm]; see docs/evaluation.md. Photos are paired by the names they had where they "
-      "came from.");
+      "which are wrong (beyond 100 mm or 1 degree) and which have no truth. With --surface or "
+      "--laser also the points' accuracy, completeness and F-score, and the bend of the flat wall "
+      "[mm], with --mesh those of the mesh too. With --survey, which needs no --truth, the errors "
+      "of control and check points [mm]; see docs/evaluation.md. Photos are paired by the names "
+      "they had where they came from.
+" +
+      std::string(kExitCodes));
   const auto arguments = std::make_shared<EvaluateArguments>();
   AddOptions(command, arguments.get());
   command->callback([arguments, exit_code] {

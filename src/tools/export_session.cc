@@ -19,10 +19,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr char kNoScale[] =
+    "the map has no scale yet: give plumbline georeference a survey, then export again";
+
 // That of this very map; a map that has changed since is only said to have none.
 std::optional<StoredGeoreference> FindGeoreference(const SessionStore& store,
                                                    std::uint32_t map_sequence,
-                                                   ExportLines* lines) {
+                                                   std::vector<std::string>* lines) {
   const std::string path = GeoreferencePath(store.folder());
   if (!std::filesystem::exists(path)) return std::nullopt;
   StoredGeoreference georeference = ReadGeoreference(path);
@@ -87,18 +90,19 @@ std::string FrameJson(const StoredGeoreference& georeference) {
 
 }  // namespace
 
-ExportLines ExportSession(const SessionStore& store, const std::string& folder) {
-  ExportLines lines;
+ExportedSession ExportSession(const SessionStore& store, const std::string& folder) {
+  ExportedSession exported;
   MapDelta snapshot = store.Snapshot();
-  const auto georeference = FindGeoreference(store, snapshot.sequence, &lines);
+  const auto georeference = FindGeoreference(store, snapshot.sequence, &exported.lines);
   if (georeference) snapshot = Transformed(std::move(snapshot), georeference->enu_from_map);
   const std::string colmap = folder + "/colmap";
   ExportColmapText(snapshot, store.camera(), colmap);
   const std::string ply = folder + "/points.ply";
   if (!georeference) {
-    ExportPly(snapshot.landmarks_set, ply);
-    lines.insert(lines.end(), {"wrote " + colmap, "wrote " + ply});
-    return lines;
+    ExportPly(snapshot.landmarks_set, ply, {"frame: map", "scale: none, lengths are relative"});
+    exported.lines.insert(exported.lines.end(), {"wrote " + colmap, "wrote " + ply});
+    if (!snapshot.views_set.empty()) exported.lacks = kNoScale;
+    return exported;
   }
   const GeoFrame& frame = georeference->frame;
   ExportPly(IsInCrs(frame) ? InCrs(snapshot.landmarks_set, frame) : snapshot.landmarks_set,
@@ -106,12 +110,13 @@ ExportLines ExportSession(const SessionStore& store, const std::string& folder) 
             PlyComments(*georeference));
   const std::string sidecar = folder + "/frame.json";
   WriteFileAtomically(sidecar, FrameJson(*georeference));
-  lines.insert(lines.end(),
-               {"wrote " + colmap + " (metres, enu about " + OriginText(frame) + ')',
-                "wrote " + ply + " (" + (IsInCrs(frame) ? frame.crs() + " less " : "enu about ") +
-                    OriginText(frame) + ')',
-                "wrote " + sidecar});
-  return lines;
+  exported.lines.insert(
+      exported.lines.end(),
+      {"wrote " + colmap + " (metres, enu about " + OriginText(frame) + ')',
+       "wrote " + ply + " (" + (IsInCrs(frame) ? frame.crs() + " less " : "enu about ") +
+           OriginText(frame) + ')',
+       "wrote " + sidecar});
+  return exported;
 }
 
 }  // namespace plumb::tools

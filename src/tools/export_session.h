@@ -9,8 +9,11 @@
 
 namespace plumb::tools {
 
-// What an export did, for a person: "wrote …" of each file, and in which frame if not the map's.
-using ExportLines = std::vector<std::string>;
+// What an export did, for a person.
+struct ExportedSession {
+  std::vector<std::string> lines;  // "wrote …" of each file, and in which frame if not the map's.
+  std::string lacks;               // What the map still lacks and how to give it; empty if nothing.
+};
 
 // Writes colmap/{cameras,images,points3D}.txt and points.ply into `folder`, which is made if need
 // be. Without a georeference of this very map, in the map's frame. With one:
@@ -19,6 +22,6 @@ using ExportLines = std::vector<std::string>;
 //               CRS counts in degrees
 //   frame.json  the CRS and the origin
 // Throws std::runtime_error naming the file and the cause.
-ExportLines ExportSession(const SessionStore& store, const std::string& folder);
+ExportedSession ExportSession(const SessionStore& store, const std::string& folder);
 
 }  // namespace plumb::tools

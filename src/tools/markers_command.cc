@@ -13,8 +13,8 @@ namespace plumb::tools {
 namespace {
 
 struct SheetArguments {
-  Paper paper = Paper::kA4;
-  Arrangement arrangement = Arrangement::kFixed;
+  std::string paper = "a4";
+  std::string arrangement = "fixed";
   int first_id = 0;
   std::string output;
 };
@@ -30,26 +30,40 @@ void Write(const MarkerSheet& sheet, const std::string& output) {
   std::cout << sheet.title << '\n';
 }
 
+// The value of a word in small or capital letters. Throws std::runtime_error naming those there
+// are.
+template <typename Value>
+Value ReadWord(const std::string& option,
+               const std::string& word,
+               const std::map<std::string, Value>& values) {
+  const auto value = values.find(CLI::detail::to_lower(word));
+  if (value != values.end()) return value->second;
+  std::string known;
+  for (const auto& [name, unused] : values) known += (known.empty() ? "" : " or ") + name;
+  throw std::runtime_error(option + ": \"" + word + "\" is not known; use " + known);
+}
+
 void AddSheet(CLI::App* markers, ExitCode* exit_code) {
   CLI::App* command =
       markers->add_subcommand("sheet", "The 4 x 4 markers to calibrate a camera with");
   const auto arguments = std::make_shared<SheetArguments>();
-  const std::map<std::string, Paper> papers = {{"a4", Paper::kA4}, {"a3", Paper::kA3}};
-  const std::map<std::string, Arrangement> arrangements = {{"fixed", Arrangement::kFixed},
-                                                           {"loose", Arrangement::kLoose}};
-  command->add_option("--paper", arguments->paper, "a4 or a3")
-      ->transform(CLI::CheckedTransformer(papers, CLI::ignore_case));
+  command->add_option("--paper", arguments->paper, "a4 or a3")->capture_default_str();
   command
       ->add_option("--arrangement",
                    arguments->arrangement,
                    "fixed: one page; loose: four a page, to cut out and strew")
-      ->transform(CLI::CheckedTransformer(arrangements, CLI::ignore_case));
+      ->capture_default_str();
   command->add_option("--first-id", arguments->first_id, "The first of 16 IDs")
       ->capture_default_str();
   command->add_option("--output", arguments->output, "A .pdf or .svg file")->required();
   command->callback([arguments, exit_code] {
-    Write(LayOutGrid(arguments->paper, arguments->arrangement, arguments->first_id),
-          arguments->output);
+    const Paper paper =
+        ReadWord<Paper>("--paper", arguments->paper, {{"a4", Paper::kA4}, {"a3", Paper::kA3}});
+    const Arrangement arrangement =
+        ReadWord<Arrangement>("--arrangement",
+                              arguments->arrangement,
+                              {{"fixed", Arrangement::kFixed}, {"loose", Arrangement::kLoose}});
+    Write(LayOutGrid(paper, arrangement, arguments->first_id), arguments->output);
     *exit_code = kDone;
   });
 }

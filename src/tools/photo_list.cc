@@ -77,7 +77,7 @@ void Collect(const fs::path& folder, const std::string& prefix, PhotoListing* li
       if (!is_hidden && !is_link && !is_session) {
         Collect(folder, prefix + name + '/', listing);
       } else {
-        ++listing->skipped[is_hidden ? kHidden : is_link ? "linked folder" : "session"];
+        ++listing->not_searched[is_hidden ? kHidden : is_link ? "linked" : "with a session"];
       }
     } else if (entry->is_other(unknown)) {
       ++listing->skipped["no file (pipe or device)"];
@@ -127,7 +127,10 @@ PhotoListing ListPhotos(const std::string& folder) {
   PhotoListing listing;
   Collect(folder, "", &listing);
   if (listing.photos.empty()) {
-    const std::string found = listing.skipped.empty() ? "" : ", only " + Counted(listing.skipped);
+    std::string found = listing.skipped.empty() ? "" : ", only " + Counted(listing.skipped);
+    if (!listing.not_searched.empty()) {
+      found += "; folders not searched: " + Counted(listing.not_searched);
+    }
     throw std::runtime_error(folder + ": holds no photo (" + kPhotoKinds + " by their names)" +
                              found + "; name the folder that holds the photos");
   }
@@ -145,6 +148,9 @@ std::vector<std::string> Describe(const PhotoListing& listing) {
   if (!listing.skipped.empty()) {
     lines.push_back("skipped, no photos by their names (" + std::string(kPhotoKinds) +
                     " are read): " + Counted(listing.skipped));
+  }
+  if (!listing.not_searched.empty()) {
+    lines.push_back("folders not searched: " + Counted(listing.not_searched));
   }
   return lines;
 }

@@ -16,7 +16,8 @@ struct PhotoListing {
   // Paths below the folder of what is a photo by its name, in natural order.
   std::vector<std::string> photos;
   std::map<std::string, int> photos_of_subfolder;  // Of those that have any.
-  std::map<std::string, int> skipped;              // By what they are, e.g. ".mp4" or "hidden".
+  std::map<std::string, int> skipped;       // Files by what they are, e.g. ".mp4" or "hidden".
+  std::map<std::string, int> not_searched;  // Folders: "hidden", "linked" or "with a session".
 };
 
 // Lists the folder as the folder watcher does: IsPhotoName decides; hidden sub-folders, links to

@@ -53,12 +53,15 @@ KnownPhotos::KnownPhotos(SessionStore* store) {
     const std::optional<std::uint64_t> hash = photo.analysis
                                                   ? photo.analysis->content_hash
                                                   : HashOfFile(store->photos().PathOf(photo.name));
-    if (hash) photos_.insert({FileName(photo.source_name), *hash});
+    if (hash) photos_.insert({{FileName(photo.source_name), *hash}, photo.id});
   }
 }
 
-bool KnownPhotos::Contains(const std::string& source_name, std::uint64_t content_hash) const {
-  return photos_.count({FileName(source_name), content_hash}) != 0;
+std::optional<PhotoId> KnownPhotos::Find(const std::string& source_name,
+                                         std::uint64_t content_hash) const {
+  const auto known = photos_.find({FileName(source_name), content_hash});
+  if (known == photos_.end()) return std::nullopt;
+  return known->second;
 }
 
 PhotoReader::PhotoReader(const FeatureOptions& options,
@@ -91,10 +94,8 @@ ReadPhoto PhotoReader::Read(const PhotoTask& task) const {
     if (!task.stored_id) return photo;
   }
   const std::uint64_t hash = HashOf(bytes);
-  if (!task.stored_id && known_->Contains(task.source_name, hash)) {
-    photo.is_known = true;
-    return photo;
-  }
+  if (!task.stored_id) photo.known_as = known_->Find(task.source_name, hash);
+  if (photo.known_as) return photo;
   photo.name = task.stored_id ? FileName(task.path) : photos_->ClaimName(task.source_name, bytes);
   if (photo.trouble.empty()) {
     photo.analysis = AnalyzePhoto(options_, bytes, width_px_, height_px_);

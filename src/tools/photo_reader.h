@@ -7,7 +7,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,9 +28,9 @@ struct PhotoTask {
 // A file that was read and analysed.
 struct ReadPhoto {
   PhotoTask task;
-  bool is_known = false;  // The session has answered it; nothing else is filled in then.
-  std::string trouble;    // Why it could not be read; nothing else is filled in then.
-  std::string name;       // In the session's photos/.
+  std::optional<PhotoId> known_as;  // What the session took it as; nothing else is filled in then.
+  std::string trouble;              // Why it could not be read; nothing else is filled in then.
+  std::string name;                 // In the session's photos/.
   std::shared_ptr<const std::vector<std::uint8_t>> bytes;
   PhotoAnalysis analysis;
   Stopwatch since_first_byte;
@@ -42,10 +41,10 @@ struct ReadPhoto {
 class KnownPhotos {
  public:
   explicit KnownPhotos(SessionStore* store);
-  bool Contains(const std::string& source_name, std::uint64_t content_hash) const;
+  std::optional<PhotoId> Find(const std::string& source_name, std::uint64_t content_hash) const;
 
  private:
-  std::set<std::pair<std::string, std::uint64_t>> photos_;
+  std::map<std::pair<std::string, std::uint64_t>, PhotoId> photos_;
 };
 
 // Reads and analyses one file after the other in a thread of its own.

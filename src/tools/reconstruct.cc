@@ -17,6 +17,7 @@
 #include "plumbline/map/session_store.h"
 #include "plumbline/sfm/mapper.h"
 #include "plumbline/sfm/stored_session.h"
+#include "tools/count_text.h"
 #include "tools/export_session.h"
 #include "tools/options_yaml.h"
 #include "tools/photo_list.h"
@@ -71,6 +72,27 @@ std::vector<PhotoTask> UnfinishedTasks(const std::vector<StoredPhoto>& unfinishe
   return tasks;
 }
 
+// Whether the session's report tells that a run with these options has completed this very map.
+bool IsCompleted(const SessionStore& store,
+                 const StoredSession& session,
+                 const MapperOptions& options) {
+  try {
+    const std::vector<std::uint8_t> bytes = ReadFileBytes(store.folder() + "/report.json");
+    const auto report = nlohmann::ordered_json::parse(bytes.begin(), bytes.end());
+    const nlohmann::ordered_json& counts = report.at("session");
+    return session.unfinished.empty() && report.at("run").at("interrupted") == false &&
+           counts.at("photos") == session.photos.size() &&
+           counts.at("accepted") == session.snapshot.views_set.size() &&
+           counts.at("landmarks") == session.snapshot.landmarks_set.size() &&
+           counts.at("observations") == session.snapshot.observations_added.size() &&
+           report.at("options") == OptionsToJson(options);
+  } catch (const std::runtime_error&) {  // It is not there.
+    return false;
+  } catch (const nlohmann::json::exception&) {  // It was cut off or changed.
+    return false;
+  }
+}
+
 // Feeds photos to a mapper while the next one is being read and analysed.
 class Feeder {
  public:
@@ -86,18 +108,19 @@ class Feeder {
     mapper_.Restore(std::move(session.photos), session.verdicts, session.snapshot);
   }
 
-  // False if it was stopped.
-  bool Feed(const std::vector<PhotoTask>& tasks, const std::atomic<bool>& stop) {
+  // False if it was stopped. A map that is completed already stays as it is if nothing is new.
+  bool Feed(const std::vector<PhotoTask>& tasks, bool is_completed, const std::atomic<bool>& stop) {
     std::future<ReadPhoto> next = reader_.Start(tasks[0]);
     Stopwatch turn;
     double cpu_s = CurrentProcessUsage().cpu_s;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
+      num_left_ = tasks.size() - i;
       if (stop) return false;
       ReadPhoto photo = next.get();
       if (i + 1 < tasks.size()) next = reader_.Start(tasks[i + 1]);
       console_->ShowProgress(i, tasks.size(), tasks[i].source_name);
-      if (photo.is_known) {
-        ++num_known_;
+      if (photo.known_as) {
+        if (turns_.count(*photo.known_as) == 0) ++num_known_;
         continue;
       }
       if (!photo.trouble.empty() && !photo.task.stored_id) {
@@ -109,6 +132,8 @@ class Feeder {
       const double cpu_before_s = std::exchange(cpu_s, CurrentProcessUsage().cpu_s);
       turns_[id] = {turn.Restart(), cpu_s - cpu_before_s};
     }
+    num_left_ = 0;
+    if (turns_.empty() && is_completed) return true;
     console_->ShowProgress(tasks.size(), tasks.size(), "last bundle");
     mapper_.Finish();
     return true;
@@ -116,6 +141,7 @@ class Feeder {
 
   void Close() { recorder_.Close(); }
 
+  std::size_t num_left() const { return num_left_; }
   std::size_t num_known() const { return num_known_; }
   const std::vector<std::string>& unread() const { return unread_; }
   const std::map<PhotoId, PhotoTurn>& turns() const { return turns_; }
@@ -142,7 +168,8 @@ class Feeder {
   PhotoReader reader_;
   PhotoId next_id_;
   std::map<PhotoId, PhotoTurn> turns_;
-  std::size_t num_known_ = 0;  // Files that the session had answered already.
+  std::size_t num_left_ = 0;   // Not yet looked at.
+  std::size_t num_known_ = 0;  // Files that the session had answered before this run.
   std::vector<std::string> unread_;
   SessionRecorder recorder_;
   Mapper mapper_;
@@ -163,15 +190,15 @@ void WriteResults(const SessionStore& store,
                   const Stopwatch& wall,
                   RunReport* report,
                   Console* console) {
-  for (const std::string& line : ExportSession(store, store.folder() + "/export")) {
-    console->PrintLine(line);
-  }
+  const ExportedSession exported = ExportSession(store, store.folder() + "/export");
+  for (const std::string& line : exported.lines) console->PrintLine(line);
   report->wall_s = wall.Seconds();
   report->usage = CurrentProcessUsage();
   const std::string path = store.folder() + "/report.json";
   WriteRunReport(*report, path);
   console->PrintLine("wrote " + path);
   console->PrintLine(Summary(*report));
+  if (!exported.lacks.empty()) console->PrintLine(exported.lacks);
 }
 
 }  // namespace
@@ -213,20 +240,27 @@ ExitCode Reconstruct(const ReconstructArguments& arguments,
   StoredSession session = ReadStoredSession(store);
   std::vector<PhotoTask> tasks = UnfinishedTasks(session.unfinished, &store);
   tasks.insert(tasks.end(), folder_tasks.begin(), folder_tasks.end());
+  const bool is_completed = IsCompleted(store, session, options);
   Feeder feeder(options, camera, &store, console);
   if (!session.photos.empty()) {
     console->PrintLine(arguments.session + ": going on after " +
-                       std::to_string(session.photos.size()) + " photos");
+                       CountOf(session.photos.size(), "photo"));
     feeder.Restore(std::move(session));
   }
-  const bool is_complete = feeder.Feed(tasks, stop);
+  const bool is_complete = feeder.Feed(tasks, is_completed, stop);
   feeder.Close();
   if (feeder.num_known() > 0) {
-    console->PrintLine(std::to_string(feeder.num_known()) + " files were in the session already");
+    console->PrintLine(CountOf(feeder.num_known(), "file") + " in the session already");
   }
   if (!feeder.unread().empty()) {
-    console->PrintLine(std::to_string(feeder.unread().size()) +
-                       " files could not be read, see above; run again once they can be");
+    console->PrintLine(CountOf(feeder.unread().size(), "file") +
+                       " could not be read, see above; run again once that is mended");
+  }
+
+  const ExitCode exit_code = feeder.map().views().empty() ? kNothingLocated : kDone;
+  if (is_complete && is_completed && feeder.turns().empty()) {
+    console->PrintLine("nothing new: map, export and report stay as they are");
+    return exit_code;
   }
 
   RunReport report;
@@ -238,8 +272,13 @@ ExitCode Reconstruct(const ReconstructArguments& arguments,
   report.interrupted = !is_complete;
   report.options = OptionsToJson(options);
   WriteResults(store, wall, &report, console);
-  if (!is_complete) return kInterrupted;
-  return feeder.map().views().empty() ? kNothingLocated : kDone;
+  if (!is_complete) {
+    console->PrintLine("interrupted: " + std::to_string(feeder.num_left()) + " of " +
+                       CountOf(tasks.size(), "photo") +
+                       " not yet looked at; the same command goes on");
+    return kInterrupted;
+  }
+  return exit_code;
 }
 
 }  // namespace plumb::tools

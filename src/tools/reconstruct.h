@@ -27,7 +27,8 @@ MapperOptions ReadMapperOptions(const ReconstructArguments& arguments);
 
 // Feeds the photos through the mapper into the session, then writes report.json and export/.
 // In a session with photos it goes on: unfinished ones first, those it has answered are skipped.
-// When `stop` becomes true it ends after the photo in work and keeps what there is. Throws
+// Where nothing is new and the last run with these options was complete, all stays as it is. When
+// `stop` becomes true it ends after the photo in work and keeps what there is. Throws
 // std::runtime_error for a file, an option value or the disk.
 ExitCode Reconstruct(const ReconstructArguments& arguments,
                      const std::atomic<bool>& stop,

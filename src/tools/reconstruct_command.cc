@@ -28,8 +28,8 @@ void AddReconstructCommand(CLI::App* app, ExitCode* exit_code) {
   CLI::App* command = app->add_subcommand(
       "reconstruct", "Locate the photos of a folder and build the map, as in flight");
   command->footer(
-      "Prints a line for each verdict: name, verdict, reason and hint, or inliers, matches and "
-      "median reprojection error [px]; seconds from the first byte to the verdict.\n"
+      "Prints a line for each verdict: name, verdict, reason and hint, how many landmarks agree "
+      "with the pose and to how many px (median); seconds from the first byte to the verdict.\n"
       "Writes SESSION/{photos,session.db,report.json,export}. A session that was cut off goes on "
       "where it was: photos it has answered are skipped by name and content. What is no photo by "
       "its name is skipped as well, and said.\n" +

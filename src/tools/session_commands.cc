@@ -24,7 +24,8 @@ void AddExportCommand(CLI::App* app, ExitCode* exit_code) {
       "Writes colmap/{cameras,images,points3D}.txt (COLMAP's text model) and points.ply, in the "
       "map's frame and unit of length. After plumbline georeference in metres: points.ply in the "
       "survey's CRS less an offset, COLMAP's model in the local frame about it; frame.json says "
-      "which.");
+      "which.\n" +
+      std::string(kExitCodes));
   const auto arguments = std::make_shared<SessionArguments>();
   command->add_option("--session", arguments->session, "Folder of the session")->required();
   command->add_option(
@@ -33,7 +34,9 @@ void AddExportCommand(CLI::App* app, ExitCode* exit_code) {
     const SessionStore store = SessionStore::OpenExisting(arguments->session);
     const std::string folder =
         arguments->path.empty() ? arguments->session + "/export" : arguments->path;
-    for (const std::string& line : ExportSession(store, folder)) std::cout << line << '\n';
+    const ExportedSession exported = ExportSession(store, folder);
+    for (const std::string& line : exported.lines) std::cout << line << '\n';
+    if (!exported.lacks.empty()) std::cout << exported.lacks << '\n';
     *exit_code = kDone;
   });
 }

@@ -117,6 +117,11 @@ class PhotoSeries {
       note = "photos, " + Seconds(num_left * stopwatch_.Seconds() / num_taken_) + " left";
     }
     console_->ShowProgress(num_done_, photo_idxs_.size(), note);
+    const std::size_t num_tenths = 10 * num_done_ / photo_idxs_.size();
+    if (console_->is_terminal() || num_tenths == num_tenths_) return;
+    num_tenths_ = num_tenths;
+    console_->PrintLine(std::to_string(num_done_) + " of " + std::to_string(photo_idxs_.size()) +
+                        ' ' + (note.empty() ? "photos" : note));
   }
 
   const Photographer& photographer_;
@@ -130,6 +135,7 @@ class PhotoSeries {
   std::mutex mutex_;  // Guards what follows, and the console.
   std::size_t num_done_ = 0;
   int num_taken_ = 0;
+  std::size_t num_tenths_ = 0;  // That were told; where there is no bar, a line says each.
   std::exception_ptr error_;
 };
 

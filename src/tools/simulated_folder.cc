@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/simulated_folder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -42,10 +43,20 @@ scenario with a `floor` has no wall: coded markers lie about the origin in z = 0
 | `scenario.yaml` | the scenario, every value of it |
 )";
 
-// The first value in which two scenarios differ, as /flight/legs/0/distance_m.
-std::string FirstDifference(const Json& a, const Json& b) {
-  const Json changes = Json::diff(a, b);
-  return changes.empty() ? "its form" : changes[0]["path"].get<std::string>();
+// The first value in which two scenarios differ and what it is in both, as /seed: 1 there, 2 now.
+// Their descriptions only if nothing else does: they do not say what is different.
+std::string FirstDifference(const Json& there, const Json& now) {
+  const Json changes = Json::diff(there, now);
+  if (changes.empty()) return "its form";
+  const auto telling = std::find_if(changes.begin(), changes.end(), [](const Json& change) {
+    return change["path"] != "/description";
+  });
+  const Json& change = telling == changes.end() ? changes[0] : *telling;
+  const std::string path = change["path"];
+  if (change["op"] == "remove") return path + ", which is only there";
+  if (change["op"] == "add") return path + ", which is only in the new one";
+  return path + ": " + there.at(Json::json_pointer(path)).dump() + " there, " +
+         change["value"].dump() + " now";
 }
 
 void CheckSameScenario(const std::string& folder, const Scenario& scenario) {
@@ -131,6 +142,9 @@ std::string TelemetryCsv(const Photographer& photographer) {
 
 void OpenSimulatedFolder(const std::string& folder, const Scenario& scenario) {
   try {
+    if (fs::is_regular_file(folder)) {
+      throw std::runtime_error(folder + ": is a file; name a folder as --output");
+    }
     if (fs::exists(folder + "/scenario.yaml")) {
       CheckSameScenario(folder, scenario);
     } else if (fs::exists(folder) && !fs::is_empty(folder)) {

@@ -8,7 +8,7 @@
 namespace plumb::tools {
 
 // What is wrong with the command line that `app` has just refused with `error`, and where help is.
-// An unknown option is named first: it may be the misspelt one that is missing.
+// An unknown command or option is named first: it may be the misspelt one that is missing.
 std::string DescribeUsageError(const CLI::App& app, const CLI::ParseError& error);
 
 }  // namespace plumb::tools

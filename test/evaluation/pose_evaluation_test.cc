@@ -115,6 +115,7 @@ TEST(EvaluatePoses, PairsByNameAndNamesWhatTheMapMissed) {
   const PoseEvaluation evaluation = EvaluatePoses(views, truth);
   EXPECT_EQ(evaluation.num_registered, 4);
   EXPECT_THAT(evaluation.missed, testing::ElementsAre("1.jpg"));
+  EXPECT_THAT(evaluation.without_truth, testing::ElementsAre("extra.jpg"));
   EXPECT_LT(evaluation.center_error_mm.max, 1e-9);
 }
 

@@ -155,7 +155,8 @@ class CalibrateTest(wire.FolderTest):
                 image.header.stamp = stamp
                 image.data = (self.photos / f"10{1 + number // 6}.png").read_bytes()
                 bag.write("/bag/image", image, stamp)
-        self.start(image_topic="/bag/image", set_camera_info_service="refuses")
+        self.start(image_topic="/bag/image", set_camera_info_service="refuses",
+                   max_queue=20)  # However slow the computer, no image is passed over.
         server = rospy.Service(
             f"{self.namespace}/refuses", SetCameraInfo,
             lambda _: SetCameraInfoResponse(success=False, status_message="no memory"))

@@ -15,10 +15,13 @@
 namespace plumb::ros_adapter {
 namespace {
 
+constexpr int kSide_px = 8;
+constexpr int kMiddle = kSide_px / 2;  // Away from the border, where colours cannot be told.
+
 sensor_msgs::ImagePtr MakeImage(const std::string& encoding, int bytes_per_pixel) {
   auto image = boost::make_shared<sensor_msgs::Image>();
-  image->width = 4;
-  image->height = 2;
+  image->width = kSide_px;
+  image->height = kSide_px;
   image->encoding = encoding;
   image->step = image->width * static_cast<std::uint32_t>(bytes_per_pixel);
   image->data.resize(image->step * image->height, 100);
@@ -32,23 +35,23 @@ TEST(ToGrayPhoto, ReadsMonoColourAndBayer) {
                                         std::pair("bayer_rggb8", 1)}) {
     const GrayPhoto photo = ToGrayPhoto(MakeImage(encoding, bytes));
     ASSERT_EQ(photo.problem, "") << encoding;
-    EXPECT_EQ(photo.gray.size(), cv::Size(4, 2));
+    EXPECT_EQ(photo.gray.size(), cv::Size(kSide_px, kSide_px));
     EXPECT_EQ(photo.gray.type(), CV_8UC1);
-    EXPECT_NEAR(photo.gray.at<std::uint8_t>(1, 1), 100, 1) << encoding;
+    EXPECT_NEAR(photo.gray.at<std::uint8_t>(kMiddle, kMiddle), 100, 1) << encoding;
   }
 }
 
 // 12 bits in 16 would be nearly black, were they taken for 16.
 TEST(ToGrayPhoto, ScalesSixteenBitsByTheBitsInUse) {
   const auto image = MakeImage("mono16", 2);
-  for (std::size_t i = 0; i < 8; ++i) {
+  for (std::size_t i = 0; i < kSide_px * kSide_px; ++i) {
     const std::uint16_t value = i == 0 ? 4000 : 2048;
     std::memcpy(&image->data[2 * i], &value, 2);
   }
   const GrayPhoto photo = ToGrayPhoto(image);
   ASSERT_EQ(photo.problem, "");
   EXPECT_EQ(photo.gray.type(), CV_8UC1);
-  EXPECT_NEAR(photo.gray.at<std::uint8_t>(1, 1), 255.0 * 2048 / 4095, 1.0);
+  EXPECT_NEAR(photo.gray.at<std::uint8_t>(kMiddle, kMiddle), 255.0 * 2048 / 4095, 1.0);
 }
 
 TEST(ToGrayPhoto, NamesWhatItCannotRead) {

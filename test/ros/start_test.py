@@ -10,7 +10,7 @@ import unittest
 
 import rospy
 import rostest
-from plumbline.msg import Photo, PhotoVerdict
+from plumbline.msg import Photo, PhotoVerdict, StoredPhotos
 
 import wire
 
@@ -89,6 +89,26 @@ class StartTest(wire.FolderTest):
         said, _ = mappers[1].communicate(timeout=wire.DEADLINE_S)
         self.assertEqual(mappers[1].returncode, wire.EX_CONFIG, said)
         self.assertIn("another program", said)
+
+    def test_a_second_node_of_a_name_is_refused_and_the_first_goes_on(self):
+        first = wire.start_node("mapper", "/start", session_folder=self.session)
+        self.addCleanup(lambda: first.poll() is None and wire.end(first))
+        stored = wire.Heard("/start/stored_photos", StoredPhotos)
+        self.addCleanup(stored.close)
+        stored.wait(len, "the mapper's start")
+        said = self.end_of("mapper", session_folder=self.session)
+        self.assertIn("/start/mapper is running already", said)
+        self.assertIsNone(first.poll())
+
+    def test_a_killed_node_does_not_keep_the_next_one_from_its_name(self):
+        for _ in range(2):
+            mapper = wire.start_node("mapper", "/start", session_folder=self.session)
+            self.addCleanup(lambda node=mapper: node.poll() is None and wire.end(node))
+            stored = wire.Heard("/start/stored_photos", StoredPhotos)
+            stored.wait(len, "the mapper's start")
+            stored.close()
+            mapper.kill()
+            mapper.wait()
 
     def test_roslaunch_ends_after_an_error_that_a_restart_cannot_cure(self):
         launch = subprocess.run(

@@ -65,7 +65,7 @@ TEST_F(ViewChoiceTest, TakesAViewFromAnotherPlaceDistanceOrTilt) {
 }
 
 TEST_F(ViewChoiceTest, WaitsUntilTheCameraIsStill) {
-  choice_.Judge(See({4.0, 0.0, 25.0}));
+  choice_.Judge(See({1.0, 0.0, 25.0}));
   EXPECT_THAT(choice_.Judge(See({8.0, 0.0, 25.0})), HasSubstr("hold still"));
   EXPECT_EQ(choice_.Judge(See({8.0, 0.0, 25.0})), "");
 }
@@ -106,7 +106,7 @@ TEST_F(ViewChoiceTest, StopsWhenThereAreEnough) {
   ViewChoice choice(options);
   for (int i = 0; i < 3; ++i) {
     stamp_s_ += 5.0;
-    EXPECT_EQ(choice.Judge(See(kAbove, 20.0 * i)), "");
+    EXPECT_EQ(choice.Judge(See(kAbove, 30.0 * i)), "");
   }
   stamp_s_ += 5.0;
   EXPECT_THAT(choice.Judge(See({6.0, 0.0, 25.0})), HasSubstr("enough"));

@@ -126,9 +126,9 @@ TEST_F(ListPhotosTest, SearchesSubfoldersButNoHiddenOnesLinksAndSessions) {
       listing.photos,
       ElementsAre("DCIM/100MEDIA/b2.jpg", "DCIM/100MEDIA/b10.jpg", "DCIM/101MEDIA/a.jpg", "c.jpg"));
   const Names lines = Describe(listing);
-  ASSERT_EQ(lines.size(), 2u);
+  ASSERT_EQ(lines.size(), 2U);
   EXPECT_EQ(lines[0], "photos in sub-folders: DCIM/100MEDIA/ (2), DCIM/101MEDIA/ (1)");
-  EXPECT_THAT(lines[1], HasSubstr("1 hidden, 1 linked folder, 1 session"));
+  EXPECT_EQ(lines[1], "folders not searched: 1 hidden, 1 linked, 1 with a session");
 }
 
 TEST_F(ListPhotosTest, ListsALinkThatLeadsNowhereButNoPipe) {
@@ -142,7 +142,8 @@ TEST_F(ListPhotosTest, NamesAnAbsentFolderAndOneWithoutPhotos) {
   EXPECT_THAT(ErrorOf(absent), HasSubstr(absent.string()));
   EXPECT_THAT(ErrorOf(folder_), HasSubstr(folder_.string() + ": holds no photo"));
   Write("film.mp4");
-  EXPECT_THAT(ErrorOf(folder_), HasSubstr("only 1 .mp4"));
+  Write("flight/session.db");
+  EXPECT_THAT(ErrorOf(folder_), HasSubstr("only 1 .mp4; folders not searched: 1 with a session"));
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr char kCameraYaml[] =
     "image_width: 640\nimage_height: 480\ncamera_name: test\n"
@@ -69,6 +70,11 @@ class ReconstructTest : public testing::Test {
     return {};
   }
 
+  static std::string TextOf(const std::string& path) {
+    const std::vector<std::uint8_t> bytes = ReadFileBytes(path);
+    return {bytes.begin(), bytes.end()};
+  }
+
   nlohmann::json Report() const {
     return nlohmann::json::parse(std::ifstream(arguments_.session + "/report.json"));
   }
@@ -107,10 +113,10 @@ TEST_F(ReconstructTest, GivesEveryBadPhotoAVerdictAndGoesOn) {
     EXPECT_THAT(output_, HasSubstr(photo["name"].get<std::string>() + ": refused, undecodable"));
   }
   EXPECT_THAT(names, testing::ElementsAre("empty.jpg", "notes.jpg", "truncated.jpg"));
-  const std::vector<std::uint8_t> kept = ReadFileBytes(arguments_.session + "/photos/notes.jpg");
-  EXPECT_EQ(std::string(kept.begin(), kept.end()), "not a photo");
+  EXPECT_EQ(TextOf(arguments_.session + "/photos/notes.jpg"), "not a photo");
   EXPECT_TRUE(fs::exists(arguments_.session + "/export/colmap/images.txt"));
   EXPECT_TRUE(fs::exists(arguments_.session + "/export/points.ply"));
+  EXPECT_THAT(output_, Not(HasSubstr("scale")));  // There is no map that could have one.
 }
 
 TEST_F(ReconstructTest, LeavesWhatIsNoPhotoOutOfTheSessionAndSaysSo) {
@@ -153,7 +159,7 @@ TEST_F(ReconstructTest, TakesPhotosOfSubfoldersAndTellsThoseOfOneNameApart) {
   for (const StoredPhoto& photo : store.Photos()) names.push_back(photo.name);
   EXPECT_THAT(names, testing::ElementsAre("a.jpg", "101MEDIA_a.jpg"));
   Run();
-  EXPECT_THAT(output_, HasSubstr("2 files were in the session already"));
+  EXPECT_THAT(output_, HasSubstr("2 files in the session already"));
 }
 
 TEST_F(ReconstructTest, RefusesASessionThatIsMixedUpWithThePhotos) {
@@ -162,6 +168,8 @@ TEST_F(ReconstructTest, RefusesASessionThatIsMixedUpWithThePhotos) {
   const std::string session = arguments_.session;
   arguments_.session = photos + "/";
   EXPECT_THAT(ErrorOf(), HasSubstr("is the folder of the photos"));
+  arguments_.session = photos + "/a.jpg";
+  EXPECT_THAT(ErrorOf(), HasSubstr("a.jpg: is a file; a session is a folder"));
   arguments_.session = root_.string();
   EXPECT_THAT(ErrorOf(), HasSubstr("lies inside the session"));
   arguments_.session = session;
@@ -184,12 +192,30 @@ TEST_F(ReconstructTest, ASecondRunTakesOnlyWhatIsNew) {
   WritePhoto("b.jpg", "another under the same name");
   WritePhoto("c.jpg", "third");
   Run();
-  EXPECT_THAT(output_, HasSubstr("1 files were in the session already"));
+  EXPECT_THAT(output_, HasSubstr("1 file in the session already"));
   const SessionStore store = SessionStore::OpenExisting(arguments_.session);
   std::vector<std::string> names;
   for (const StoredPhoto& photo : store.Photos()) names.push_back(photo.name);
   EXPECT_THAT(names, testing::ElementsAre("a.jpg", "b.jpg", "b_2.jpg", "c.jpg"));
   EXPECT_EQ(store.LatestVerdicts().size(), 4u);
+}
+
+TEST_F(ReconstructTest, WithNothingNewAllStaysAsItIs) {
+  WritePhoto("a.jpg", "first");
+  Run();
+  EXPECT_THAT(output_, Not(HasSubstr("nothing new")));
+  const std::string report = TextOf(arguments_.session + "/report.json");
+  EXPECT_EQ(Run(), kNothingLocated);
+  EXPECT_THAT(output_, HasSubstr("nothing new"));
+  EXPECT_EQ(TextOf(arguments_.session + "/report.json"), report);
+
+  arguments_.settings = {"localizer.num_views=12"};
+  Run();
+  EXPECT_THAT(output_, Not(HasSubstr("nothing new"))) << "other options, another map";
+  WriteFileAtomically(arguments_.session + "/report.json", "{\"run\": 5");
+  Run();
+  EXPECT_THAT(output_, Not(HasSubstr("nothing new"))) << "the report says nothing";
+  EXPECT_EQ(Report()["session"]["photos"], 1);
 }
 
 TEST_F(ReconstructTest, FinishesFirstWhatWasCutOff) {
@@ -198,7 +224,9 @@ TEST_F(ReconstructTest, FinishesFirstWhatWasCutOff) {
     SessionStore store(arguments_.session, ReadCameraYaml(arguments_.camera));
     store.SavePhoto({0}, "cut_off.jpg", {'x'});  // No analysis, no verdict.
   }
+  WritePhoto("cut_off.jpg", "x");
   Run();
+  EXPECT_THAT(output_, Not(HasSubstr("in the session already"))) << "it was answered only now";
   const SessionStore store = SessionStore::OpenExisting(arguments_.session);
   const std::vector<PhotoVerdict> verdicts = store.AllVerdicts();
   ASSERT_EQ(verdicts.size(), 2u);
@@ -213,6 +241,9 @@ TEST_F(ReconstructTest, StopsBetweenPhotosAndKeepsWhatThereIs) {
   WritePhoto("a.jpg", "first");
   EXPECT_EQ(Run(/*stop=*/true), kInterrupted);
   EXPECT_EQ(Report()["run"]["interrupted"], true);
+  EXPECT_THAT(output_,
+              testing::EndsWith("interrupted: 1 of 1 photo not yet looked at; the same "
+                                "command goes on\n"));
   EXPECT_EQ(Run(), kNothingLocated);
   EXPECT_EQ(Report()["run"]["interrupted"], false);
   EXPECT_EQ(Report()["session"]["photos"], 1);
@@ -240,13 +271,19 @@ TEST_F(ReconstructTest, WhatIsWrongWithTheArgumentsIsNamedBeforeASessionIsMade) 
 TEST_F(ReconstructTest, TheSamePhotosInTheSameOrderGiveTheSameMap) {
   if (!UseSharedScene("Herz-Jesus-P8", 5)) GTEST_SKIP() << "set PLUMBLINE_DATA to the shared data";
   EXPECT_EQ(Run(), kDone);
+  EXPECT_THAT(output_, testing::EndsWith("survey, then export again\n"));
   const std::string first = arguments_.session;
+  EXPECT_THAT(TextOf(first + "/export/points.ply"), HasSubstr("\ncomment scale: none"));
   arguments_.session += "2";
   EXPECT_EQ(Run(), kDone);
   for (const char* file : {"cameras.txt", "images.txt", "points3D.txt"}) {
     const std::string name = std::string("/export/colmap/") + file;
     EXPECT_EQ(ReadFileBytes(first + name), ReadFileBytes(arguments_.session + name)) << file;
   }
+  EXPECT_EQ(Run(), kDone);
+  EXPECT_THAT(output_, HasSubstr("nothing new"));
+  const std::string points = "/export/colmap/points3D.txt";
+  EXPECT_EQ(ReadFileBytes(first + points), ReadFileBytes(arguments_.session + points));
 }
 
 TEST_F(ReconstructTest, AKilledRunGoesOnAndLocatesEveryPhotoOnce) {

@@ -77,7 +77,9 @@ class SimulateTest : public testing::Test {
 
 TEST_F(SimulateTest, WritesAFlightWithItsTruth) {
   EXPECT_EQ(Run(), kDone);
-  EXPECT_THAT(printed_.str(), AllOf(HasSubstr("5 photos"), HasSubstr("without ROS")));
+  EXPECT_THAT(
+      printed_.str(),
+      AllOf(HasSubstr("\n2 of 5 photos, "), HasSubstr("5 photos"), HasSubstr("without ROS")));
   const auto files = Files();
   for (const char* name : {"photos/0001_far.jpg",
                            "photos/0005_near.jpg",
@@ -152,11 +154,25 @@ TEST_F(SimulateTest, RefusesAFolderOfSomethingElse) {
   Run();
   arguments_.seed = 2;
   EXPECT_THAT(Error(),
-              AllOf(HasSubstr("another scenario"), HasSubstr("/seed"), HasSubstr("--output")));
+              AllOf(HasSubstr("another scenario"),
+                    HasSubstr("/seed: 1 there, 2 now"),
+                    HasSubstr("--output")));
   arguments_.output = root_;
   EXPECT_THAT(Error(), HasSubstr("holds something else"));
+  arguments_.output = root_ + "/tiny.yaml";
+  EXPECT_THAT(Error(), HasSubstr("is a file; name a folder"));
   arguments_.output = root_ + "/tiny.yaml/below";
   EXPECT_THAT(Error(), HasSubstr("choose another --output"));
+}
+
+TEST_F(SimulateTest, OfTwoScenariosNamesWhatDiffersBeforeTheirDescriptions) {
+  Run();
+  std::string text = kTiny;
+  text.replace(text.find("height_m: 10.5"), 14, "height_m: 11.0");
+  WriteFileAtomically(arguments_.scenario, "description: a higher one\n" + text);
+  EXPECT_THAT(Error(), HasSubstr("differs in /facade/height_m: 10.5 there, 11.0 now; "));
+  WriteFileAtomically(arguments_.scenario, std::string("description: the same\n") + kTiny);
+  EXPECT_THAT(Error(), HasSubstr("differs in /description: "));
 }
 
 TEST_F(SimulateTest, RefusesACameraInsideTheBuilding) {

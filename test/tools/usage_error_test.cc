@@ -28,6 +28,12 @@ TEST(DescribeUsageError, NamesTheUnknownOptionBeforeTheMissingOnes) {
             "unknown option --photo; see plumbline reconstruct --help");
 }
 
+TEST(DescribeUsageError, NamesAnUnknownCommandBeforeItsOptions) {
+  EXPECT_EQ(ErrorOf("recontsruct --photos few"),
+            "unknown command \"recontsruct\"; see plumbline --help");
+  EXPECT_EQ(ErrorOf("--foo"), "unknown option --foo; see plumbline --help");
+}
+
 TEST(DescribeUsageError, NamesWhatIsMissing) {
   EXPECT_EQ(ErrorOf("reconstruct"), "--photos is required; see plumbline reconstruct --help");
   EXPECT_EQ(ErrorOf(""), "A subcommand is required; see plumbline --help");

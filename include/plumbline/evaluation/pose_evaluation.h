@@ -30,11 +30,12 @@ struct PoseTolerance {
 };
 
 struct PoseEvaluation {
-  int num_truth = 0;                // Photos with a true pose.
-  int num_registered = 0;           // Those of them that the map has located.
-  std::vector<std::string> missed;  // The others.
-  std::vector<std::string> wrong;   // Registered, but beyond the tolerance.
-  Similarity3 world_from_map;       // Its scale is metres a map unit.
+  int num_truth = 0;                       // Photos with a true pose.
+  int num_registered = 0;                  // Those of them that the map has located.
+  std::vector<std::string> missed;         // The others.
+  std::vector<std::string> without_truth;  // Located, but not in the truth: measured by nothing.
+  std::vector<std::string> wrong;          // Registered, but beyond the tolerance.
+  Similarity3 world_from_map;              // Its scale is metres a map unit.
   ErrorSummary center_error_mm;
   ErrorSummary rotation_error_deg;
   std::vector<PhotoError> photos;  // In the order of the truth.

@@ -60,7 +60,7 @@ struct PhotoVerdict {
   RefusalReason reason = RefusalReason::kNone;
   std::string hint;     // What the pilot can do, one sentence; empty if accepted.
   int num_matches = 0;  // 2D-3D matches tried.
-  int num_inliers = 0;
+  int num_inliers = 0;  // Once accepted with those only the pose led to: may pass num_matches.
   double median_error_px = 0.0;  // Reprojection error of the inliers; 0 without any.
   StageSeconds seconds;
   std::vector<Eigen::Vector2f> inlier_pixels;  // Raw pixels, for the annotated photo.

@@ -1,0 +1,67 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: 2026 The Plumbline authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the demo says before and after a flight, and of a launch that ends too early."""
+
+import pathlib
+import sys
+import tempfile
+import types
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+import demo
+
+
+def verdict(verdict_s, work_s):
+    return types.SimpleNamespace(verdict_s=verdict_s, decode_s=work_s, features_s=0.0,
+                                 retrieval_s=0.0, matching_s=0.0, pose_s=0.0, attempt=1, name="a")
+
+
+class DemoTest(unittest.TestCase):
+    def test_a_file_that_is_no_camera_is_named_with_the_cure(self):
+        with tempfile.TemporaryDirectory() as folder:
+            camera = pathlib.Path(folder) / "camera.yaml"
+            for content, problem in ((None, "cannot be read"), ("image_width: 1", "image_height"),
+                                     ("{", "no YAML"), ("- 1", "image_width")):
+                if content is not None:
+                    camera.write_text(content)
+                with self.assertRaises(SystemExit) as end:
+                    demo.check_camera(camera)
+                self.assertIn(problem, str(end.exception))
+                self.assertIn("CAMERA=", str(end.exception))
+            camera.write_text("{image_width: 1, image_height: 1, camera_matrix: {}}")
+            demo.check_camera(camera)
+
+    def test_work_and_waiting_are_told_apart(self):
+        lines = demo.describe_times([verdict(9.0, 1.0)] * 3, 8.0)
+        self.assertEqual(lines[0], "median 9.00 s from photo to verdict, 1.00 s of it work")
+        self.assertIn("up to 8 s in the queue", lines[1])
+        self.assertEqual(len(demo.describe_times([verdict(1.2, 1.0)], 0.2)), 1)
+        self.assertEqual(demo.describe_times([], 0.0), [])
+
+    def test_only_first_verdicts_tell_of_the_queue(self):
+        verdicts = demo.Verdicts()
+        verdicts.hear(verdict(3.0, 1.0))
+        later = verdict(99.0, 1.0)
+        later.attempt = 2
+        verdicts.hear(later)
+        self.assertEqual(verdicts.longest_wait_s(), 2.0)
+        self.assertEqual(verdicts.num_photos(), 1)
+
+    def test_a_launch_that_ends_is_told_with_its_reason(self):
+        launch = demo.Launch(["bash", "-c", r"echo -e '\e[31m[FATAL] [12.5]: no card\e[0m'; exit 1"])
+        with self.assertRaises(SystemExit) as end:
+            launch.wait_for(lambda: False, 60.0)
+        launch.end()
+        self.assertEqual(str(end.exception), "the flight has ended by itself: no card")
+
+    def test_a_launch_that_runs_is_waited_for(self):
+        launch = demo.Launch(["sleep", "60"])
+        self.assertFalse(launch.wait_for(lambda: False, 0.0))
+        self.assertTrue(launch.wait_for(lambda: True, 60.0))
+        launch.end()
+
+
+if __name__ == "__main__":
+    unittest.main()
