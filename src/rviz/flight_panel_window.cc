@@ -87,7 +87,7 @@ QWidget* FlightPanel::BuildLayers() {
     layers_->addButton(button, i);
     row->addWidget(button);
   }
-  connect(layers_, QOverload<int>::of(&QButtonGroup::buttonClicked), this, &FlightPanel::OnLayer);
+  connect(layers_, &QButtonGroup::idClicked, this, &FlightPanel::OnLayer);
   column->addLayout(row);
   legend_ = MakeLabel("legend");
   legend_->setMinimumHeight(64);
