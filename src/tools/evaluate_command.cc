@@ -150,8 +150,7 @@ void AddEvaluateCommand(CLI::App* app, ExitCode* exit_code) {
       "--laser also the points' accuracy, completeness and F-score, and the bend of the flat wall "
       "[mm], with --mesh those of the mesh too. With --survey, which needs no --truth, the errors "
       "of control and check points [mm]; see docs/evaluation.md. Photos are paired by the names "
-      "they had where they came from.
-" +
+      "they had where they came from.\n" +
       std::string(kExitCodes));
   const auto arguments = std::make_shared<EvaluateArguments>();
   AddOptions(command, arguments.get());
