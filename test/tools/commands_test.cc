@@ -81,10 +81,11 @@ TEST_F(CommandsTest, CheckSaysToTheShellWhetherAnyPhotoIsUsable) {
   EXPECT_EQ(Run(line), kNothingLocated);
   EXPECT_THAT(out_, HasSubstr("\"usable\":false"));
   EXPECT_THAT(error_, HasSubstr("none of the photos is usable"));
-  cv::Mat noise(200, 300, CV_8U);
+  cv::Mat noise(50, 75, CV_8U);
   cv::randu(noise, 0, 255);
-  cv::resize(noise(cv::Rect(0, 0, 75, 50)), noise, noise.size(), 0.0, 0.0, cv::INTER_NEAREST);
-  cv::imwrite(Path("photos/textured.png"), noise);
+  cv::Mat textured;
+  cv::resize(noise, textured, {300, 200}, 0.0, 0.0, cv::INTER_NEAREST);
+  cv::imwrite(Path("photos/textured.png"), textured);
   EXPECT_EQ(Run(line), kDone);
   EXPECT_THAT(out_, HasSubstr("\"usable\":true"));
 }
