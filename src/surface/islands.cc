@@ -20,8 +20,6 @@ std::vector<FaceIdx> IslandFinder::Update(const std::vector<Slot>& slots, FacePo
   for (const Slot slot : slots) {
     for (const FaceIdx face : pool->AroundSlot(slot)) {
       if (size_of_[face] == Size::kUnknown) Decide(face, pool);
-      // An island that grew together with the rest is still marked beyond what was searched.
-      if (size_of_[face] == Size::kLarge) ClearMarks(face, pool);
     }
   }
   for (const FaceIdx face : decided_) size_of_[face] = Size::kUnknown;
@@ -48,6 +46,9 @@ void IslandFinder::Decide(FaceIdx start, FacePool* pool) {
     size_of_[face] = is_large ? Size::kLarge : Size::kSmall;
     SetMark(face, !is_large, pool);
   }
+  if (!is_large) return;
+  // An island that grew together with the rest is still marked beyond what was searched.
+  for (const FaceIdx face : found) ClearMarks(face, pool);
 }
 
 void IslandFinder::ClearMarks(FaceIdx start, FacePool* pool) {

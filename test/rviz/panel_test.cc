@@ -184,9 +184,9 @@ TEST_F(PanelTest, TheLegendIsThatOfTheLayer) {
   image.data = {255, 0, 0, 255, 0, 0, 255, 0, 0, 255, 0, 0};
   legend_.publish(image);
   const auto middle = [] {
-    const QPixmap* pixmap = Find<QLabel>("legend")->pixmap();
-    if (pixmap == nullptr || pixmap->isNull()) return QColor(Qt::black);
-    return pixmap->toImage().pixelColor(pixmap->width() / 2, pixmap->height() / 2);
+    const QPixmap pixmap = Find<QLabel>("legend")->pixmap(Qt::ReturnByValue);
+    if (pixmap.isNull()) return QColor(Qt::black);
+    return pixmap.toImage().pixelColor(pixmap.width() / 2, pixmap.height() / 2);
   };
   WaitFor([&] { return middle() == QColor(255, 0, 0); }, "the legend");
   image.data.resize(3);  // Cut short: not looked at.
@@ -216,7 +216,9 @@ TEST_F(PanelTest, TheWantedGsdAndThePaletteReachTheMesher) {
   std::vector<plumbline::SetMeshDisplay::Request> asked;
   const ros::ServiceServer server = handle_.advertiseService<plumbline::SetMeshDisplay::Request,
                                                              plumbline::SetMeshDisplay::Response>(
-      "/plumbline/set_mesh_display", [&](auto& request, auto& response) {
+      "/plumbline/set_mesh_display",
+      [&](plumbline::SetMeshDisplay::Request& request,
+          plumbline::SetMeshDisplay::Response& response) {
         asked.push_back(request);
         response.success = request.wanted_gsd < 100.0 ? 1 : 0;
         response.message = "wanted_gsd_mm is too large";
@@ -241,7 +243,8 @@ TEST_F(PanelTest, SaveFinishesTheFlightAndSaysWhatCameOfIt) {
   EXPECT_TRUE(Find<QPushButton>("save")->isEnabled());
   const ros::ServiceServer server =
       handle_.advertiseService<std_srvs::Trigger::Request, std_srvs::Trigger::Response>(
-          "/plumbline/finish", [](auto&, auto& response) {
+          "/plumbline/finish",
+          +[](std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
             response.success = 1;
             response.message = "12 accepted";
             return true;
