@@ -79,7 +79,7 @@ void MesherRos::OnMapDelta(const plumbline::MapDelta& msg) {
 void MesherRos::OnCamera(const sensor_msgs::CameraInfo& msg) {
   try {
     const Camera camera = FromCameraInfoMsg(msg, "camera");
-    worker_.TryPush([this, camera] {
+    worker_.Push([this, camera] {  // Latched: it is not said again.
       camera_ = camera;
       Publish(quality_->SetCamera(camera), /*is_snapshot=*/false);
       Repaint();
@@ -90,7 +90,7 @@ void MesherRos::OnCamera(const sensor_msgs::CameraInfo& msg) {
 }
 
 void MesherRos::OnScale(const std_msgs::Float64& msg) {
-  worker_.TryPush([this, scale = KnownScale(msg.data)] {
+  worker_.Push([this, scale = KnownScale(msg.data)] {
     if (scale == metres_per_map_unit_) return;
     metres_per_map_unit_ = scale;
     Repaint();

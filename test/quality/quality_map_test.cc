@@ -21,10 +21,11 @@ MapDelta MapOf(const std::vector<ViewState>& views) {
   return delta;
 }
 
-// A wall of 8 m x 4 m in y = 0 that faces -y, with a pillar of 1 m before it.
+// A wall of 8 m x 4 m in y = 0 that faces -y, with a pillar of 1 m before it. No line of sight
+// passes right through an edge, where it is rounding that tells what is hidden.
 test::Soup WallWithPillar() {
   test::Soup soup;
-  test::AddGrid({0, 0, 0}, {8, 0, 0}, {0, 0, 4}, 24, 12, &soup);
+  test::AddGrid({0.0071, 0, 0.0043}, {8, 0, 0}, {0, 0, 4}, 24, 12, &soup);
   test::AddGrid({3.0, -1, 0}, {1, 0, 0}, {0, 0, 4}, 3, 12, &soup);
   test::AddGrid({3.0, 0, 0}, {0, -1, 0}, {0, 0, 4}, 3, 12, &soup);
   test::AddGrid({4.0, -1, 0}, {0, 1, 0}, {0, 0, 4}, 3, 12, &soup);

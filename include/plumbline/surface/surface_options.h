@@ -11,10 +11,10 @@ namespace plumb {
 struct SurfaceOptions {
   // The energy (paper, section III.C). Whole numbers: sums of them are exact, so that the least cut
   // is the same however it was arrived at.
-  int alpha_free = 8;  // For each ray that passes a cell labelled occupied.
-  int alpha_occ = 4;   // For each ray that ends before a cell labelled free.
+  int alpha_free = 16;  // For each ray that passes a cell labelled occupied.
+  int alpha_occ = 8;   // For each ray that ends before a cell labelled free.
   int beta_vis = 1;   // Between cells of unlike labels, through a face that a ray crosses first ...
-  int beta_init = 4;  // ... and through any other; each side of the face counts.
+  int beta_init = 6;  // ... and through any other. Each side of the face counts.
 
   // A landmark stands on a lattice of the pitch d / 2^bits, d being the distance of its nearest
   // camera, rounded down to a power of two. A move within the pitch changes no tetrahedra.
