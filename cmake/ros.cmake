@@ -49,7 +49,7 @@ endforeach()
 
 # The calibrator's window, of Qt.
 find_package(Qt5 REQUIRED COMPONENTS Widgets)
-file(GLOB window_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/calibrator_window/*.cc)
+file(GLOB window_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/ros/calibrator_window/*.cc)
 add_library(plumb_calibrator_window STATIC ${window_sources})
 target_compile_definitions(plumb_calibrator_window PUBLIC QT_NO_KEYWORDS)
 target_link_libraries(plumb_calibrator_window PUBLIC plumb_ros Qt5::Widgets PRIVATE plumb_warnings)
@@ -101,7 +101,7 @@ if(CATKIN_ENABLE_TESTING)
   # The calibrator's window, drawn into memory.
   find_package(Qt5 REQUIRED COMPONENTS Test)
   file(GLOB window_test_sources CONFIGURE_DEPENDS
-       ${PROJECT_SOURCE_DIR}/test/calibrator_window/*.cc)
+       ${PROJECT_SOURCE_DIR}/test/ros/calibrator_window/*.cc)
   add_executable(calibrator_window_test EXCLUDE_FROM_ALL ${window_test_sources})
   add_dependencies(tests calibrator_window_test)
   set_target_properties(calibrator_window_test PROPERTIES

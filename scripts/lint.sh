@@ -11,7 +11,7 @@ fail() {
   failed=1
 }
 
-core=$(find include src -name '*.h' -o -name '*.cc' | grep -vE '^src/(ros|calibrator_window|nodes|rviz)/')
+core=$(find include src -name '*.h' -o -name '*.cc' | grep -vE '^src/(ros|nodes|rviz)/')
 packages='ros|roscpp|rosbag|rosgraph_msgs|cv_bridge|pluginlib|nodelet|rviz|tf2?|tf2_[a-z]+'
 packages+='|image_transport|dynamic_reconfigure|diagnostic_updater|xmlrpcpp|[a-z]+_msgs|std_srvs'
 if grep -nE "#include [<\"](($packages)/|plumbline/[A-Z])" $core; then

@@ -54,8 +54,8 @@ std::vector<Place> Places(const MarkerFloorOptions& options) {
   }
   for (int i = 0; i < kGridSide * kGridSide; ++i) {
     RandomNumbers random(DeriveSeed(options.seed, kPlaceUse, static_cast<std::uint64_t>(i)));
-    const Eigen::Vector2d cell(i % kGridSide - 0.5 * (kGridSide - 1),
-                               0.5 * (kGridSide - 1) - i / kGridSide);
+    const int row = i / kGridSide;
+    const Eigen::Vector2d cell(i % kGridSide - 0.5 * (kGridSide - 1), 0.5 * (kGridSide - 1) - row);
     const double x = random.Uniform(-0.2, 0.2);
     const Eigen::Vector2d off(x, random.Uniform(-0.2, 0.2));
     places.push_back(

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calibrator_window/estimate_view.h"
+#include "ros/calibrator_window/estimate_view.h"
 
 #include <QPainter>
 #include <algorithm>
 
-#include "calibrator_window/window_style.h"
+#include "ros/calibrator_window/window_style.h"
 #include "ros/calibrator_wording.h"
 
 namespace plumb::ros_adapter {

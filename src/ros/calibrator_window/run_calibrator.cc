@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calibrator_window/run_calibrator.h"
+#include "ros/calibrator_window/run_calibrator.h"
 
 #include <ros/init.h>
 #include <ros/spinner.h>
@@ -12,8 +12,8 @@
 #include <memory>
 #include <stdexcept>
 
-#include "calibrator_window/calibrator_window.h"
 #include "ros/calibrator_ros.h"
+#include "ros/calibrator_window/calibrator_window.h"
 #include "ros/run_node.h"
 
 namespace plumb::ros_adapter {

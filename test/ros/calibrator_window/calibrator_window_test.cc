@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calibrator_window/calibrator_window.h"
+#include "ros/calibrator_window/calibrator_window.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,10 +10,10 @@
 #include <QPushButton>
 #include <QtTest>
 
-#include "calibrator_window/estimate_view.h"
-#include "calibrator_window/photo_view.h"
-#include "calibrator_window/window_style.h"
-#include "test/calibrator_window/window_states.h"
+#include "ros/calibrator_window/estimate_view.h"
+#include "ros/calibrator_window/photo_view.h"
+#include "ros/calibrator_window/window_style.h"
+#include "test/ros/calibrator_window/window_states.h"
 
 namespace plumb::ros_adapter {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calibrator_window/calibrator_window.h"
+#include "ros/calibrator_window/calibrator_window.h"
 
 #include <QHBoxLayout>
 #include <QLabel>
@@ -9,11 +9,11 @@
 #include <QVBoxLayout>
 #include <utility>
 
-#include "calibrator_window/bars_view.h"
-#include "calibrator_window/coverage_view.h"
-#include "calibrator_window/estimate_view.h"
-#include "calibrator_window/photo_view.h"
-#include "calibrator_window/window_style.h"
+#include "ros/calibrator_window/bars_view.h"
+#include "ros/calibrator_window/coverage_view.h"
+#include "ros/calibrator_window/estimate_view.h"
+#include "ros/calibrator_window/photo_view.h"
+#include "ros/calibrator_window/window_style.h"
 
 namespace plumb::ros_adapter {
 namespace {
