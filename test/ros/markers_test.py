@@ -66,6 +66,7 @@ class MarkersTest(unittest.TestCase):
     def start(self, **parameters):
         node = wire.start_node("marker_detector", self.namespace, **parameters)
         self.addCleanup(lambda: wire.end(node) if node.poll() is None else None)
+        # Asked again and again: rospy does not tell when a subscriber gets its connection.
         deadline_s = time.monotonic() + wire.DEADLINE_S
         while not (self.photos.get_num_connections() and self.answers.is_connected()):
             self.assertLess(time.monotonic(), deadline_s, "marker_detector did not start")
