@@ -24,6 +24,7 @@ double DistanceToEdge(const Eigen::Vector2d& point_in_marker) {
   for (const double edge : {kDiscRadius, kStripeInnerRadius, kStripeOuterRadius}) {
     distance = std::min(distance, std::abs(radius - edge));
   }
+  if (radius <= kStripeInnerRadius || radius >= kStripeOuterRadius) return distance;
   const double cells =
       std::atan2(point_in_marker.y(), point_in_marker.x()) / (2.0 * M_PI) * kNumCodeBits;
   const double off_border_rad = (cells - std::round(cells)) * 2.0 * M_PI / kNumCodeBits;
