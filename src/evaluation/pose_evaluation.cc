@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "evaluation/center_alignment.h"
+#include "evaluation/turn_about_line.h"
 
 namespace plumb {
 namespace {
@@ -76,6 +77,14 @@ Centers CentersOf(const std::vector<Pair>& pairs) {
   return centers;
 }
 
+std::vector<CameraTurn> TurnsOf(const std::vector<Pair>& pairs) {
+  std::vector<CameraTurn> turns;
+  for (const Pair& pair : pairs) {
+    turns.push_back({pair.view->cam_from_map.rotation, pair.truth->cam_from_world_rotation});
+  }
+  return turns;
+}
+
 Similarity3 Align(const std::vector<Pair>& pairs, double max_error_m) {
   if (pairs.size() < 3) {
     throw std::runtime_error(
@@ -83,13 +92,14 @@ Similarity3 Align(const std::vector<Pair>& pairs, double max_error_m) {
         "truth, but there are " +
         std::to_string(pairs.size()) + "; compare the names of the photos in both");
   }
-  const std::optional<Similarity3> world_from_map = AlignCenters(CentersOf(pairs), max_error_m);
+  const Centers centers = CentersOf(pairs);
+  const std::optional<Similarity3> world_from_map = AlignCenters(centers, max_error_m);
   if (!world_from_map) {
     throw std::runtime_error(
         "the camera centres lie on a line, so that the rotation about it is free; evaluate a "
         "flight with photos beside that line");
   }
-  return *world_from_map;
+  return TurnAboutLine(*world_from_map, centers.in_world, TurnsOf(pairs), max_error_m);
 }
 
 PhotoError ErrorOf(const Similarity3& world_from_map, const Pair& pair) {

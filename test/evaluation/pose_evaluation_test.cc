@@ -165,6 +165,25 @@ TEST(EvaluatePoses, NeedsThreeCommonPhotosThatAreNotInALine) {
   }
 }
 
+TEST(EvaluatePoses, ANearlyStraightRowIsTurnedAboutItselfByItsRotations) {
+  std::vector<TruePose> truth = MakeTruth();
+  for (std::size_t i = 0; i < 5; ++i) {
+    truth[i].center_in_world_m = {static_cast<double>(i), 0.0, i == 2 ? 0.02 : 0.0};
+  }
+  // The bulge of the row, which alone tells the turn by the centres, measured on another side.
+  std::vector<TruePose> measured = truth;
+  measured[2].center_in_world_m = {2.0, 0.02, 0.0};
+  const PoseEvaluation evaluation = EvaluatePoses(ViewsOf(measured, MakeMapFromWorld()), truth);
+  EXPECT_LT(evaluation.rotation_error_deg.max, 1.0);
+  EXPECT_LT(evaluation.center_error_mm.max, 30.0);  // 20 mm across, in two directions.
+  EXPECT_THAT(evaluation.wrong, testing::IsEmpty());
+
+  measured[1].cam_from_world_rotation =
+      Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitX()) * truth[1].cam_from_world_rotation;
+  EXPECT_THAT(EvaluatePoses(ViewsOf(measured, MakeMapFromWorld()), truth).wrong,
+              testing::ElementsAre("1.jpg"));
+}
+
 class ReadTruePosesTest : public testing::Test {
  protected:
   ~ReadTruePosesTest() override { std::remove(path_.c_str()); }
