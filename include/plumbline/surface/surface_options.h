@@ -14,9 +14,11 @@ struct SurfaceOptions {
   int alpha_free = 128;  // For each ray that passes a cell labelled occupied.
   int alpha_occ = 64;    // For each ray that ends before a cell labelled free.
 
-  // Between cells of unlike labels, through a face that a ray crosses first, and through any other;
-  // times 0 to 2 by the angles of the face. Each side of the face counts.
+  // Between cells of unlike labels, through a face that a ray crosses first; times 0 to 2 by the
+  // angles of the face. Each side of the face counts.
   int beta_vis = 32;
+
+  // The same, through any other face.
   int beta_init = 64;
 
   // A landmark stands on a lattice of the pitch d / 2^bits, d being the distance of its nearest
