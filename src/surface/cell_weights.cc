@@ -30,6 +30,12 @@ bool IsFree(const DynamicCut& cut, Cell cell) {
   return cell->info().node == kNoCutNode || cut.IsAtSource(cell->info().node);
 }
 
+// Whether beyond face `i` the world ends, and rays leave it there.
+bool IsOpenHull(const Triangulation& triangulation, Cell cell, int i) {
+  return triangulation.is_infinite(cell->neighbor(i)) &&
+         cell->info().num_crossing[static_cast<std::size_t>(i)] > 0;
+}
+
 }  // namespace
 
 std::int32_t FaceWeightOf(const SurfaceOptions& options, Cell cell, int i) {
@@ -47,7 +53,7 @@ std::int32_t TerminalOf(const SurfaceOptions& options,
   std::int32_t terminal =
       options.alpha_free * Sum(info.num_passing) - options.alpha_occ * Sum(info.num_behind);
   for (int i = 0; i < 4; ++i) {
-    if (triangulation.is_infinite(cell->neighbor(i))) terminal += FaceWeightOf(options, cell, i);
+    if (IsOpenHull(triangulation, cell, i)) terminal += FaceWeightOf(options, cell, i);
   }
   return terminal;
 }
@@ -63,6 +69,8 @@ std::int64_t EnergyOf(const SurfaceOptions& options,
                       : options.alpha_free * Sum(cell->info().num_passing);
     if (is_free) continue;
     for (int i = 0; i < 4; ++i) {
+      const bool is_hull = triangulation.is_infinite(cell->neighbor(i));
+      if (is_hull && !IsOpenHull(triangulation, cell, i)) continue;
       if (IsFree(cut, cell->neighbor(i))) energy += FaceWeightOf(options, cell, i);
     }
   }

@@ -12,8 +12,9 @@ namespace plumb {
 // The energy of the paper's section III.C, from the counts in the cells. Free is the source's
 // label. Infinite cells are free: the cameras hover outside the hull.
 
-// Cost of the label occupied minus cost of the label free. What separates the cell from
-// infinite neighbours is a cost of occupied.
+// Cost of the label occupied minus cost of the label free. A face of the hull that rays leave by
+// is a cost of occupied. Any other is none: behind a wall that was only seen from in front the
+// world ends, and what closes it there is dropped anyway (FaceSupport).
 std::int32_t TerminalOf(const SurfaceOptions& options,
                         const Triangulation& triangulation,
                         Cell cell);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/mesh_session.h"
 
+#include <filesystem>
+
 #include "plumbline/common/stopwatch.h"
 #include "plumbline/export/mesh.h"
 #include "plumbline/surface/surface_mesher.h"
@@ -39,6 +41,7 @@ Json MeshSession(const SurfaceOptions& options,
   const SurfaceUpdate update = *mesher.Apply(snapshot);
   Json report = ToJson(update.report);
   report["blocks"] = update.mesh.blocks.size();
+  std::filesystem::create_directories(folder);
   const std::string ply = folder + "/mesh.ply";
   const std::string obj = folder + "/mesh.obj";
   ExportMeshPly(update.mesh, ply);

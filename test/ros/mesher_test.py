@@ -18,7 +18,8 @@ from visualization_msgs.msg import MarkerArray
 
 import wire
 
-SIDE = 15  # Landmarks a side of the wall's lattice, 0.2 apart.
+SIDE = 20  # Landmarks a side of the wall's lattice.
+SPACING = 0.15
 
 
 def camera_info():
@@ -31,7 +32,7 @@ class Wall:
 
     def __init__(self):
         numbers = random.Random(1)
-        self.points = [(0.2 * (i % SIDE), 0.2 * (i // SIDE), numbers.uniform(0.0, 0.05))
+        self.points = [(SPACING * (i % SIDE), SPACING * (i // SIDE), numbers.uniform(0.0, 0.02))
                        for i in range(SIDE * SIDE)]
         self.sequence = 0
 
@@ -58,12 +59,13 @@ class Wall:
                 rows.feature_idxs.append(landmark)
                 rows.pixels_px += (1.0, 1.0)
 
-    def delta(self, photos, ids, known_ids=()):
-        """The next delta: new photos, new landmarks; each photo sees all of them."""
+    def delta(self, photos, ids, known_photos=(), known_ids=()):
+        """The next delta: new photos, new landmarks; each photo, new or known, sees all of them."""
         self.sequence += 1
         delta = self._fill(MapDelta(sequence=self.sequence), photos, ids)
         delta.landmarks_set.colors_rgb = bytes(delta.landmarks_set.colors_rgb)
         self._observe(delta, photos, list(known_ids) + list(ids))
+        self._observe(delta, known_photos, ids)
         return delta
 
     def snapshot(self, photos, ids):
@@ -139,7 +141,7 @@ class MesherTest(unittest.TestCase):
     def build_in_two_steps(self):
         self.deltas.publish(self.wall.delta([1, 2, 3], self.half))
         self.wait_for_map(1)
-        self.deltas.publish(self.wall.delta([4, 5], self.rest, known_ids=self.half))
+        self.deltas.publish(self.wall.delta([4, 5], self.rest, [1, 2, 3], self.half))
         self.wait_for_map(2)
         self.offer(self.wall.snapshot([1, 2, 3, 4, 5], self.half + self.rest))
 

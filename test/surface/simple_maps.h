@@ -37,6 +37,13 @@ class SimpleMap {
     return map;
   }
 
+  // Only its first cameras.
+  static SimpleMap WallSeenBy(std::size_t num_views) {
+    SimpleMap map = Wall();
+    map.centers_.resize(num_views);
+    return map;
+  }
+
   static SimpleMap FirstOf(std::size_t num_landmarks) {
     SimpleMap map = Wall();
     map.landmarks_.resize(num_landmarks);

@@ -46,7 +46,7 @@ TEST(SurfaceMesher, HasTheSameMeshWhetherRestartedOrNot) {
   options.seed = 5;
   RandomMap map(options);
   SurfaceOptions surface = SmallOptions();
-  surface.alpha_occ = 512;  // Three rays a landmark: little lies behind it.
+  surface.alpha_occ = 256;  // Three rays a landmark: little lies behind it.
   SurfaceMesher mesher(surface);
   MeshReplica replica;
   std::size_t max_num_faces = 0;
@@ -121,6 +121,13 @@ TEST(SurfaceMesher, AsksForASnapshotAfterAGap) {
   EXPECT_TRUE(update->mesh.is_snapshot);
   EXPECT_EQ(update->mesh.sequence, 2U);
   EXPECT_EQ(update->mesh.map_sequence, 3U);
+}
+
+// A wall with nothing behind it, after the first two photos: it is there, though half of its
+// landmarks are seen through by the other half's rays.
+TEST(SurfaceMesher, AWallIsThereFromItsFirstTwoPhotosOn) {
+  EXPECT_GT(MeshOf(SimpleMap::WallSeenBy(2).Snapshot()).report.num_faces, 300U);
+  EXPECT_GT(MeshOf(SimpleMap::WallSeenBy(3).Snapshot()).report.num_faces, 300U);
 }
 
 // A wall seen by two rows of cameras: nothing closes it at the back.

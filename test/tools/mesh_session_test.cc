@@ -24,7 +24,11 @@ SurfaceOptions WideOptions() {
 
 TEST_F(MeshSessionTest, WritesTheMeshAndTellsWhatItTook) {
   SessionStore store(folder_, MakeCamera());
-  store.Apply(test::SimpleMap::Wall().Snapshot());
+  const MapDelta wall = test::SimpleMap::Wall().Snapshot();
+  for (const ViewState& view : wall.views_set) {
+    store.SavePhoto(view.photo, std::to_string(view.photo.value) + ".jpg", MakeBytes(10, 1));
+  }
+  store.Apply(wall);
   const nlohmann::ordered_json report = MeshSession(WideOptions(), store, folder_ + "/export");
   EXPECT_EQ(report.at("vertices"), 400);
   EXPECT_EQ(report.at("rays"), 4000);

@@ -12,14 +12,14 @@ struct SurfaceOptions {
   // The energy (paper, section III.C). Whole numbers: sums of them are exact, so that the least cut
   // is the same however it was arrived at.
   int alpha_free = 128;  // For each ray that passes a cell labelled occupied.
-  int alpha_occ = 64;    // For each ray that ends before a cell labelled free.
+  int alpha_occ = 128;   // For each ray that ends before a cell labelled free.
 
   // Between cells of unlike labels, through a face that a ray crosses first; times 0 to 2 by the
   // angles of the face. Each side of the face counts.
-  int beta_vis = 32;
+  int beta_vis = 48;
 
   // The same, through any other face.
-  int beta_init = 64;
+  int beta_init = 96;
 
   // A landmark stands on a lattice of the pitch d / 2^bits, d being the distance of its nearest
   // camera, rounded down to a power of two. A move within the pitch changes no tetrahedra.
