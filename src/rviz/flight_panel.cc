@@ -55,6 +55,15 @@ QString Text(const std::optional<int>& count) {
   return count ? QString::number(*count) : QStringLiteral("–");
 }
 
+// An orbiting view that is there already is kept: RViz may still have news of it in its queue.
+rviz::ViewController* OrbitView(rviz::ViewManager* views) {
+  const QString orbit = "rviz/Orbit";
+  if (views->getCurrent() == nullptr || views->getCurrent()->getClassId() != orbit) {
+    views->setCurrentViewControllerType(orbit);
+  }
+  return views->getCurrent();
+}
+
 // A service of a node that hangs must not hold RViz up: the thread is left to itself.
 template <typename Function>
 auto InThread(Function function) {
@@ -247,8 +256,7 @@ void FlightPanel::OnGapClicked(int row) {
   const double distance = std::sqrt(std::pow(gap.camera_in_map.x - center.x, 2) +
                                     std::pow(gap.camera_in_map.y - center.y, 2) +
                                     std::pow(gap.camera_in_map.z - center.z, 2));
-  vis_manager_->getViewManager()->setCurrentViewControllerType("rviz/Orbit");
-  rviz::ViewController* view = vis_manager_->getViewManager()->getCurrent();
+  rviz::ViewController* view = OrbitView(vis_manager_->getViewManager());
   view->subProp("Target Frame")->setValue(QString::fromStdString(gaps_.header.frame_id));
   view->subProp("Focal Point")->subProp("X")->setValue(center.x);
   view->subProp("Focal Point")->subProp("Y")->setValue(center.y);
@@ -259,8 +267,7 @@ void FlightPanel::OnGapClicked(int row) {
 }
 
 void FlightPanel::OnWholeView() {
-  vis_manager_->getViewManager()->setCurrentViewControllerType("rviz/Orbit");
-  rviz::ViewController* view = vis_manager_->getViewManager()->getCurrent();
+  rviz::ViewController* view = OrbitView(vis_manager_->getViewManager());
   view->subProp("Target Frame")->setValue("map_overview");
   for (const char* axis : {"X", "Y", "Z"}) {
     view->subProp("Focal Point")->subProp(axis)->setValue(0.0);

@@ -29,13 +29,15 @@ constexpr int kDeadline_ms = 60000;
 class PanelTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    static rviz::VisualizationFrame frame;
-    frame_ = &frame;
-    frame.setShowChooseNewMaster(false);
-    frame.initialize(PLUMBLINE_SOURCE_DIR "/rviz/flight.rviz");
-    frame.show();
-    panel_ = frame.findChild<FlightPanel*>();
+    frame_ = new rviz::VisualizationFrame;
+    frame_->setShowChooseNewMaster(false);
+    frame_->initialize(PLUMBLINE_SOURCE_DIR "/rviz/flight.rviz");
+    frame_->show();
+    panel_ = frame_->findChild<FlightPanel*>();
   }
+
+  // Before the application ends, whose widgets they are.
+  static void TearDownTestSuite() { delete frame_; }
 
   void SetUp() override {
     ASSERT_NE(panel_, nullptr) << "RViz did not load plumbline/Flight";
@@ -120,14 +122,14 @@ rviz::VisualizationFrame* PanelTest::frame_ = nullptr;
 FlightPanel* PanelTest::panel_ = nullptr;
 
 TEST_F(PanelTest, TheLampTellsWhatBecameOfTheLastPhoto) {
-  Publish(1, "accepted", "none", "");
+  Publish(1, plumbline::PhotoVerdict::ACCEPTED, "none", "");
   WaitFor([] { return TextOf("lamp") == "photo1.jpg accepted."; }, "green");
   EXPECT_THAT(Find<QLabel>("lamp")->styleSheet().toStdString(), testing::HasSubstr("#0b7a25"));
-  Publish(2, "refused", "too_blurred", "Fly slower.");
+  Publish(2, plumbline::PhotoVerdict::REFUSED, "too_blurred", "Fly slower.");
   WaitFor([] { return TextOf("lamp") == "photo2.jpg REFUSED: too blurred. Fly slower."; }, "red");
   EXPECT_THAT(Find<QLabel>("lamp")->styleSheet().toStdString(), testing::HasSubstr("#c40000"));
-  Publish(1, "accepted", "none", "");  // An older photo, tried again, changes nothing.
-  Publish(3, "waiting", "none", "Take another.");
+  Publish(1, plumbline::PhotoVerdict::ACCEPTED, "none", "");  // An older photo, tried again, changes nothing.
+  Publish(3, plumbline::PhotoVerdict::WAITING, "none", "Take another.");
   WaitFor([] { return TextOf("lamp") == "photo3.jpg waits. Take another."; }, "yellow");
 }
 
@@ -208,6 +210,7 @@ TEST_F(PanelTest, AClickOnAGapLooksThere) {
   EXPECT_NEAR(view->subProp("Distance")->getValue().toDouble(), 8.0, 1e-5);
   EXPECT_EQ(view->subProp("Target Frame")->getValue().toString(), "map");
   Press("whole_view");
+  view = frame_->getManager()->getViewManager()->getCurrent();
   EXPECT_EQ(view->subProp("Target Frame")->getValue().toString(), "map_overview");
   EXPECT_NEAR(view->subProp("Focal Point")->subProp("X")->getValue().toDouble(), 0.0, 1e-5);
 }
