@@ -19,6 +19,7 @@ pkg_check_modules(SQLITE3 REQUIRED IMPORTED_TARGET sqlite3)
 pkg_check_modules(EXIV2 REQUIRED IMPORTED_TARGET exiv2)
 pkg_check_modules(LIBJPEG REQUIRED IMPORTED_TARGET libjpeg)
 pkg_check_modules(PROJ REQUIRED IMPORTED_TARGET proj)
+pkg_check_modules(MAXFLOW REQUIRED IMPORTED_TARGET maxflow)  # Only tests and benchmarks.
 
 add_library(plumb_warnings INTERFACE)
 target_compile_options(plumb_warnings INTERFACE -Wall -Wextra -Wconversion)
@@ -51,6 +52,9 @@ plumb_module(calibration plumb_marker Ceres::ceres nlohmann_json::nlohmann_json 
 plumb_module(map plumb_image PkgConfig::SQLITE3 nlohmann_json::nlohmann_json)
 plumb_module(matching plumb_map opencv_core)
 plumb_module(sfm plumb_matching Ceres::ceres)
+plumb_module(surface plumb_map)
+target_link_libraries(plumb_surface PRIVATE CGAL::CGAL)
+plumb_module(quality plumb_surface opencv_imgproc embree)
 plumb_module(georeference plumb_sfm plumb_marker PkgConfig::PROJ)
 plumb_module(simulation plumb_marker embree PkgConfig::PROJ)
 # A vectorised square root sets no errno.
@@ -58,7 +62,7 @@ set_source_files_properties(src/simulation/develop.cc PROPERTIES COMPILE_OPTIONS
 # All processors shall render the same bits: nothing is contracted to fused operations.
 file(GLOB shade_kernels CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/simulation/shade_kernel*.cc)
 set_source_files_properties(${shade_kernels} PROPERTIES COMPILE_OPTIONS -ffp-contract=off)
-plumb_module(export plumb_sfm)
+plumb_module(export plumb_sfm plumb_surface)
 plumb_module(evaluation plumb_export)
 target_link_libraries(plumb_evaluation PRIVATE CGAL::CGAL)
 target_include_directories(plumb_evaluation SYSTEM PRIVATE ${NANOFLANN_INCLUDE_DIR})
@@ -97,10 +101,12 @@ function(plumb_module_test name)
                  LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/test/sanitizer_suppressions.txt)
   endif()
 endfunction()
-foreach(module common geometry camera image marker calibration map matching sfm georeference
+foreach(module common geometry camera image marker calibration map matching sfm surface georeference
                simulation export evaluation tools)
   plumb_module_test(${module} plumb_${module} plumb_camera)  # test/support makes scenes.
 endforeach()
+plumb_module_test(quality plumb_quality plumb_simulation)  # Whose facades are true meshes.
+target_link_libraries(surface_test PRIVATE CGAL::CGAL PkgConfig::MAXFLOW)
 
 # Timing programs: test/benchmark/*_benchmark.cc.
 find_package(benchmark QUIET)
@@ -115,6 +121,10 @@ if(benchmark_FOUND AND APRILTAG_FOUND AND TARGET opencv_aruco)
     target_compile_definitions(${name} PRIVATE PLUMBLINE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
     target_link_libraries(${name} PRIVATE plumb_evaluation plumb_simulation benchmark::benchmark)
   endforeach()
+  # The surface is held against a solve from nothing.
+  target_link_libraries(surface_benchmark PRIVATE plumb_surface CGAL::CGAL PkgConfig::MAXFLOW
+                        GTest::gtest nlohmann_json::nlohmann_json)
+  target_link_libraries(quality_benchmark PRIVATE plumb_quality nlohmann_json::nlohmann_json)
   # The marker detector is measured beside two others.
   target_link_libraries(marker_benchmark PRIVATE plumb_marker opencv_aruco PkgConfig::APRILTAG
                         nlohmann_json::nlohmann_json)

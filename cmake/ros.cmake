@@ -17,6 +17,9 @@ add_message_files(FILES LandmarkStates.msg MapDelta.msg MarkerDetection.msg
                   StoredPhotos.msg ViewState.msg)
 add_service_files(FILES GetMap.srv)
 add_message_files(FILES CalibrationProgress.msg CoverageBar.msg)
+# The mesh and its quality.
+add_message_files(FILES Gap.msg Gaps.msg MeshBlock.msg MeshDelta.msg)
+add_service_files(FILES GetMesh.srv SetMeshDisplay.srv)
 generate_messages(DEPENDENCIES geometry_msgs sensor_msgs std_msgs)
 catkin_package(CATKIN_DEPENDS message_runtime geometry_msgs sensor_msgs std_msgs)
 
@@ -28,6 +31,7 @@ target_include_directories(plumb_ros SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/includ
                            ${catkin_INCLUDE_DIRS})
 target_link_libraries(plumb_ros PUBLIC plumb_export plumb_marker ${catkin_LIBRARIES}
                       PRIVATE plumb_warnings)
+target_link_libraries(plumb_ros PUBLIC plumb_quality)
 
 # The calibrator takes images of either kind from one topic.
 find_package(topic_tools REQUIRED)
@@ -62,6 +66,25 @@ if(TARGET plumbline_tool)
   target_link_libraries(plumbline_tool PRIVATE plumb_ros)  # `plumbline simulate` writes a bag.
   list(APPEND programs plumbline_tool)
 endif()
+
+# The RViz panel, a plugin.
+find_package(rviz REQUIRED)
+find_package(Qt5 REQUIRED COMPONENTS Test Widgets)
+file(GLOB panel_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/rviz/*.cc)
+qt5_wrap_cpp(panel_moc ${PROJECT_SOURCE_DIR}/src/rviz/flight_panel.h)
+set_source_files_properties(${panel_moc} PROPERTIES COMPILE_OPTIONS -w)
+add_library(plumbline_rviz SHARED ${panel_sources} ${panel_moc})
+add_dependencies(plumbline_rviz ${PROJECT_NAME}_generate_messages_cpp)
+set_target_properties(plumbline_rviz PROPERTIES LIBRARY_OUTPUT_DIRECTORY
+                      ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_LIB_DESTINATION})
+target_compile_definitions(plumbline_rviz PUBLIC QT_NO_KEYWORDS)
+target_include_directories(plumbline_rviz PUBLIC ${PROJECT_SOURCE_DIR}/src)
+target_include_directories(plumbline_rviz SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/include
+                           ${catkin_INCLUDE_DIRS} ${rviz_INCLUDE_DIRS})
+target_link_libraries(plumbline_rviz PUBLIC Qt5::Widgets ${rviz_LIBRARIES} ${catkin_LIBRARIES}
+                      PRIVATE plumb_warnings)
+install(TARGETS plumbline_rviz LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
+install(FILES rviz_plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 
 install(TARGETS ${programs} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(PROGRAMS scripts/fly_photos.py scripts/keep_running.sh
@@ -120,6 +143,12 @@ if(CATKIN_ENABLE_TESTING)
   target_include_directories(make_calibration_photos PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(make_calibration_photos PRIVATE plumb_marker plumb_warnings
                         opencv_imgcodecs)
+
+  # The panel, driven in an RViz of its own on a virtual display.
+  add_rostest_gtest(panel_test test/rviz/panel.test test/rviz/panel_test.cc)
+  target_include_directories(panel_test PRIVATE ${PROJECT_SOURCE_DIR})
+  target_compile_definitions(panel_test PRIVATE PLUMBLINE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_link_libraries(panel_test plumbline_rviz Qt5::Test GTest::gmock plumb_warnings)
 
   file(GLOB rostests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/ros/*.test)
   foreach(rostest ${rostests})

@@ -13,11 +13,11 @@ import os
 import sys
 import traceback
 
-from benchmark import calibration, markers, realism, reconstruction, scenarios
+from benchmark import calibration, markers, realism, reconstruction, scenarios, surface
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 SECTIONS = {"reconstruction": reconstruction, "realism": realism, "scenarios": scenarios,
-            "markers": markers, "calibration": calibration}
+            "markers": markers, "calibration": calibration, "surface": surface}
 
 
 def built_program():

@@ -16,10 +16,10 @@ packages=(
   libcv-bridge-dev libdiagnostic-updater-dev librosbag-storage-dev libtf2-ros-dev python3-diagnostic-msgs python3-nav-msgs python3-rostest
   python3-sensor-msgs python3-std-srvs python3-tf2-ros python3-visualization-msgs
   ros-core-dev rosbash rviz
-  # The calibrator.
-  libtopic-tools-dev qtbase5-dev
+  # The calibrator and the RViz panel.
+  libtopic-tools-dev librviz-dev pluginlib-dev qtbase5-dev
   # Tests and the demo.
-  imagemagick libapriltag-dev libbenchmark-dev libgl1-mesa-dri libgmock-dev libgtest-dev libopencv-contrib-dev python3-numpy
+  imagemagick libapriltag-dev libbenchmark-dev libgl1-mesa-dri libgmock-dev libgtest-dev libmaxflow-dev libopencv-contrib-dev python3-numpy
   python3-yaml x11-utils xauth xvfb
 )
 if [[ ${1:-} == --lint ]]; then

@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
   AddEvaluateCommand(&app, &exit_code);
   AddGeoreferenceCommand(&app, &exit_code);
   AddExportCommand(&app, &exit_code);
+  AddMeshCommand(&app, &exit_code);
   AddMarkersCommand(&app, &exit_code);
   AddDetectCommand(&app, &exit_code);
   AddCalibrateCommand(&app, &exit_code);

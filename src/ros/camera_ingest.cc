@@ -339,6 +339,13 @@ void CameraIngest::Send(std::uint32_t sequence) {
   photo_publisher_.publish(ToPhotoMsg(wire, ToCameraInfoMsg(*camera_), options_.camera_frame_id));
 }
 
+// How long the oldest photo without a verdict has been waiting for it.
+double CameraIngest::SecondsBehind() const {
+  const std::optional<std::uint32_t> oldest = window_.Oldest();
+  if (!oldest) return 0.0;
+  return static_cast<double>(Now().ns - intake_.photo(*oldest).received.ns) * 1e-9;
+}
+
 void CameraIngest::Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const std::lock_guard<std::mutex> lock(mutex_);
   using diagnostic_msgs::DiagnosticStatus;
@@ -351,6 +358,8 @@ void CameraIngest::Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
   for (const std::string& folder : folders_) status.add("photos in", folder);
   status.add("images waiting for the disk", images_.size());
   status.add("images lost", num_images_lost_);
+  status.add("photos taken", intake_.photos().size());
+  status.add("seconds behind the camera", SecondsBehind());
   status.add("photos waiting", window_.num_waiting());
   status.add("photos in flight", window_.num_in_flight());
   status.add("photos sent again", window_.num_sent_again());

@@ -82,6 +82,7 @@ class CameraIngest {
   // Publishes whatever the window says is due.
   void SendDue();
   void Send(std::uint32_t sequence);
+  double SecondsBehind() const;
   void Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   ros::NodeHandle handle_;

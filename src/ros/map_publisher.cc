@@ -11,6 +11,7 @@
 #include <cmath>
 #include <utility>
 
+#include "ros/camera_conversion.h"
 #include "ros/geometry_conversion.h"
 #include "ros/map_conversion.h"
 #include "ros/map_drawing.h"
@@ -44,6 +45,10 @@ MapPublisher::MapPublisher(const ros::NodeHandle& handle,
       publishing_(kMaxDeltaQueue, [this](const MapDelta& delta) { PublishDelta(delta); }) {
   ros::NodeHandle own(handle);
   delta_publisher_ = own.advertise<plumbline::MapDelta>("map_delta", 1000);
+  camera_publisher_ = own.advertise<sensor_msgs::CameraInfo>("session_camera", 1, /*latch=*/true);
+  sensor_msgs::CameraInfo camera_info = ToCameraInfoMsg(camera);
+  camera_info.header = HeaderNow(options.camera_frame_id);
+  camera_publisher_.publish(camera_info);
   points_publisher_ = own.advertise<sensor_msgs::PointCloud2>("points", 1, /*latch=*/true);
   cameras_publisher_ = own.advertise<visualization_msgs::MarkerArray>("cameras", 1, /*latch=*/true);
   path_publisher_ = own.advertise<nav_msgs::Path>("camera_path", 1, /*latch=*/true);

@@ -20,7 +20,8 @@
 
 namespace plumb::ros_adapter {
 
-// Tells the outside what the map is: `map_delta` and the service get_map, and for the eye `points`,
+// Tells the outside what the map is: `map_delta`, the service get_map and `session_camera`, the
+// camera of all its photos as calibrated; and for the eye `points`,
 // `cameras`, `camera_path`, `annotated_photo` and tf. Works in its own threads; the mapper hands
 // over and goes on. Thread-safe.
 class MapPublisher {
@@ -54,6 +55,7 @@ class MapPublisher {
   MapperRosOptions options_;
   Camera camera_;
   ros::Publisher delta_publisher_;
+  ros::Publisher camera_publisher_;
   ros::Publisher points_publisher_;
   ros::Publisher cameras_publisher_;
   ros::Publisher path_publisher_;

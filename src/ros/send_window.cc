@@ -32,4 +32,12 @@ std::optional<std::uint32_t> SendWindow::Next(double now_s) {
   return sequence;
 }
 
+std::optional<std::uint32_t> SendWindow::Oldest() const {
+  std::optional<std::uint32_t> oldest;
+  if (!pending_.empty()) oldest = *pending_.begin();
+  if (!sent_s_.empty())
+    oldest = std::min(oldest.value_or(sent_s_.begin()->first), sent_s_.begin()->first);
+  return oldest;
+}
+
 }  // namespace plumb::ros_adapter

@@ -30,6 +30,9 @@ class SendWindow {
   // The photo to send now, counted as sent; nothing if there is none or too many are in flight.
   std::optional<std::uint32_t> Next(double now_s);
 
+  // The first of the photos that have no answer yet.
+  std::optional<std::uint32_t> Oldest() const;
+
   std::size_t num_waiting() const { return pending_.size(); }
   std::size_t num_in_flight() const { return sent_s_.size(); }
   std::size_t num_sent_again() const { return num_sent_again_; }  // For want of an answer.

@@ -16,6 +16,7 @@ void AddCheckCommand(CLI::App* app, ExitCode* exit_code);
 void AddEvaluateCommand(CLI::App* app, ExitCode* exit_code);
 void AddGeoreferenceCommand(CLI::App* app, ExitCode* exit_code);
 void AddExportCommand(CLI::App* app, ExitCode* exit_code);
+void AddMeshCommand(CLI::App* app, ExitCode* exit_code);
 void AddMarkersCommand(CLI::App* app, ExitCode* exit_code);
 void AddDetectCommand(CLI::App* app, ExitCode* exit_code);
 void AddCalibrateCommand(CLI::App* app, ExitCode* exit_code);

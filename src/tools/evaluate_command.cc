@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "plumbline/evaluation/ply_reader.h"
 #include "plumbline/evaluation/pose_evaluation.h"
 #include "plumbline/georeference/georeference_file.h"
 #include "plumbline/map/session_store.h"
@@ -51,6 +52,7 @@ Json ToSurveyJson(const Georeference& georeference) {
 
 struct EvaluateArguments {
   std::string poses;
+  std::string mesh;
   GeometryTruth truth;
   GeoreferenceArguments georeference;  // With the session.
 };
@@ -73,6 +75,10 @@ void AddOptions(CLI::App* command, EvaluateArguments* arguments) {
                       "PLY of the true surface, a mesh in the frame of the true poses; faces whose "
                       "property main_wall is not 0 are the wall that is truly flat");
   command->add_option("--laser", truth->laser, "PLY of a scan, a point cloud in the same frame");
+  command->add_option("--mesh",
+                      arguments->mesh,
+                      "PLY of a mesh in the map's frame, such as plumbline mesh writes, to be "
+                      "compared with the surface and the scan as well");
   truth->num_samples = 500'000;
   command
       ->add_option(
@@ -102,6 +108,11 @@ Json EvaluateByTruth(const EvaluateArguments& arguments, const SessionStore& sto
     points_in_world.push_back(poses.world_from_map * landmark.position_in_map);
   }
   ReportGeometry(truth, store.camera(), points_in_world, &report);
+  if (!arguments.mesh.empty()) {
+    TriangleMesh mesh = ReadPlyMesh(arguments.mesh);
+    for (Eigen::Vector3d& vertex : mesh.vertices) vertex = poses.world_from_map * vertex;
+    ReportMesh(truth, store.camera(), mesh, &report);
+  }
   return report;
 }
 
@@ -110,9 +121,11 @@ void Evaluate(const EvaluateArguments& arguments) {
   if (arguments.poses.empty() && !has_survey) {
     throw std::runtime_error("nothing to evaluate against; give --truth, --survey or both");
   }
-  const bool has_geometry = !arguments.truth.surface.empty() || !arguments.truth.laser.empty();
+  const bool has_geometry =
+      !arguments.truth.surface.empty() || !arguments.truth.laser.empty() || !arguments.mesh.empty();
   if (arguments.poses.empty() && has_geometry) {
-    throw std::runtime_error("--surface and --laser need the alignment by --truth; give it too");
+    throw std::runtime_error(
+        "--surface, --laser and --mesh need the alignment by --truth; give it too");
   }
   const SessionStore store = SessionStore::OpenExisting(arguments.georeference.session);
   Json report = Json::object();
@@ -134,11 +147,10 @@ void AddEvaluateCommand(CLI::App* app, ExitCode* exit_code) {
       "Prints JSON: photos registered, mean, median and largest error of the camera centres [mm] "
       "and rotations [deg] after the similarity that fits the centres best, those of each photo, "
       "which are wrong (beyond 100 mm or 1 degree) and which have no truth. With --surface or "
-      "--laser also the points' "
-      "accuracy, completeness and F-score, and the bend of the flat wall [mm]. With --survey, "
-      "which needs no --truth, the errors of control and check points [mm]; see "
-      "docs/evaluation.md. "
-      "Photos are paired by the names they had where they came from.\n" +
+      "--laser also the points' accuracy, completeness and F-score, and the bend of the flat wall "
+      "[mm], with --mesh those of the mesh too. With --survey, which needs no --truth, the errors "
+      "of control and check points [mm]; see docs/evaluation.md. Photos are paired by the names "
+      "they had where they came from.\n" +
       std::string(kExitCodes));
   const auto arguments = std::make_shared<EvaluateArguments>();
   AddOptions(command, arguments.get());

@@ -3,11 +3,13 @@
 #include "tools/geometry_report.h"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <random>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "plumbline/evaluation/distance_summary.h"
 #include "plumbline/evaluation/nearest.h"
@@ -70,25 +72,25 @@ Json Compare(const DistanceSummary& accuracy, const DistanceSummary& completenes
           {"f_score", has_both ? ToJson(FScore(accuracy, completeness)) : Json(nullptr)}};
 }
 
+using DistanceTo = std::function<double(const Eigen::Vector3d&)>;
+
 // Of the truth that can have been reconstructed, how far the reconstruction is.
 class Completeness {
  public:
-  Completeness(const GeometryTruth& truth, const Camera& camera, const Points& reconstructed)
-      : truth_(truth), camera_(camera), reconstructed_(reconstructed) {}
+  Completeness(const GeometryTruth& truth, const Camera& camera, DistanceTo reconstructed)
+      : truth_(truth), camera_(camera), reconstructed_(std::move(reconstructed)) {}
 
   DistanceSummary Of(Points true_points, const MeshIndex* surface) const {
     if (surface != nullptr) {
       true_points = PointsSeen(true_points, *surface, camera_, truth_.photos, kMinPhotos);
     }
-    return SummariseDistances(EvaluateAtPoints(true_points, [this](const Eigen::Vector3d& point) {
-      return reconstructed_.DistanceTo(point);
-    }));
+    return SummariseDistances(EvaluateAtPoints(true_points, reconstructed_));
   }
 
  private:
   const GeometryTruth& truth_;
   const Camera& camera_;
-  CloudIndex reconstructed_;
+  DistanceTo reconstructed_;
 };
 
 Points Thinned(const Points& points, std::size_t max_points) {
@@ -137,6 +139,44 @@ Json MeasureWall(const GeometryTruth& truth,
   return wall ? ToJson(*wall) : Json(nullptr);
 }
 
+// The true surface, ready to be measured from; null if there is none.
+struct SurfaceTruth {
+  TriangleMesh mesh;
+  std::unique_ptr<MeshIndex> index;
+};
+
+SurfaceTruth ReadSurface(const std::string& path) {
+  SurfaceTruth surface;
+  if (path.empty()) return surface;
+  surface.mesh = ReadPlyMesh(path);
+  try {
+    surface.index = std::make_unique<MeshIndex>(surface.mesh);
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(path + ": " + error.what());
+  }
+  return surface;
+}
+
+// "surface" and "laser", as far as they are given.
+Json CompareWithTruth(const GeometryTruth& truth,
+                      const Camera& camera,
+                      const SurfaceTruth& surface,
+                      const Completeness& completeness,
+                      const Points& points) {
+  Json report = Json::object();
+  if (surface.index != nullptr) {
+    report["surface"] = CompareWithSurface(truth,
+                                           PiecesInView(surface.mesh, camera, truth.photos),
+                                           *surface.index,
+                                           completeness,
+                                           points);
+  }
+  if (!truth.laser.empty()) {
+    report["laser"] = CompareWithLaser(truth, surface.index.get(), completeness, points);
+  }
+  return report;
+}
+
 }  // namespace
 
 void ReportGeometry(const GeometryTruth& truth,
@@ -147,22 +187,38 @@ void ReportGeometry(const GeometryTruth& truth,
   if (points_in_world.empty()) {
     throw std::runtime_error("the session's map has no points to hold against the truth");
   }
-  const Completeness completeness(truth, camera, points_in_world);
-  std::unique_ptr<MeshIndex> surface;
-  if (!truth.surface.empty()) {
-    const TriangleMesh mesh = ReadPlyMesh(truth.surface);
-    try {
-      surface = std::make_unique<MeshIndex>(mesh);
-      (*report)["surface"] = CompareWithSurface(
-          truth, PiecesInView(mesh, camera, truth.photos), *surface, completeness, points_in_world);
-      (*report)["wall"] = MeasureWall(truth, mesh, *surface, points_in_world);
-    } catch (const std::invalid_argument& error) {
-      throw std::runtime_error(truth.surface + ": " + error.what());
+  const auto cloud = std::make_shared<CloudIndex>(points_in_world);
+  const Completeness completeness(
+      truth, camera, [cloud](const Eigen::Vector3d& point) { return cloud->DistanceTo(point); });
+  const SurfaceTruth surface = ReadSurface(truth.surface);
+  report->update(CompareWithTruth(truth, camera, surface, completeness, points_in_world));
+  if (surface.index == nullptr) return;
+  try {
+    (*report)["wall"] = MeasureWall(truth, surface.mesh, *surface.index, points_in_world);
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(truth.surface + ": " + error.what());
+  }
+}
+
+void ReportMesh(const GeometryTruth& truth,
+                const Camera& camera,
+                const TriangleMesh& mesh_in_world,
+                Json* report) {
+  Points samples;
+  std::shared_ptr<MeshIndex> index;
+  try {
+    index = std::make_shared<MeshIndex>(mesh_in_world);
+    for (const SurfaceSample& sample : SampleSurface(mesh_in_world, truth.num_samples, kSeed)) {
+      samples.push_back(sample.point);
     }
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(std::string("the mesh to be compared: ") + error.what());
   }
-  if (!truth.laser.empty()) {
-    (*report)["laser"] = CompareWithLaser(truth, surface.get(), completeness, points_in_world);
-  }
+  const Completeness completeness(truth, camera, [index](const Eigen::Vector3d& point) {
+    return index->NearestTo(point).distance;
+  });
+  (*report)["mesh"] =
+      CompareWithTruth(truth, camera, ReadSurface(truth.surface), completeness, samples);
 }
 
 }  // namespace plumb::tools

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "plumbline/camera/camera.h"
+#include "plumbline/evaluation/triangle_mesh.h"
 #include "plumbline/evaluation/true_poses.h"
 #include "plumbline/evaluation/wall_bend.h"
 
@@ -31,5 +32,13 @@ void ReportGeometry(const GeometryTruth& truth,
                     const Camera& camera,
                     const std::vector<Eigen::Vector3d>& points_in_world,
                     nlohmann::ordered_json* report);
+
+// Adds "mesh" to `report`: the same of a reconstructed mesh, under "surface" and "laser". Its
+// accuracy is that of points spread evenly over its area. Throws std::runtime_error as above, or if
+// the mesh has no area.
+void ReportMesh(const GeometryTruth& truth,
+                const Camera& camera,
+                const TriangleMesh& mesh_in_world,
+                nlohmann::ordered_json* report);
 
 }  // namespace plumb::tools

@@ -166,6 +166,17 @@ TEST(VerdictMsg, RoundTripKeepsAllButThePixels) {
   EXPECT_TRUE(back->inlier_pixels.empty());
 }
 
+TEST(VerdictMsg, StatusIsOneOfTheConstants) {
+  const auto status_of = [](VerdictStatus status) {
+    PhotoVerdict verdict;
+    verdict.status = status;
+    return ToVerdictMsg(verdict, "map", ros::Time(1)).status;
+  };
+  EXPECT_EQ(status_of(VerdictStatus::kAccepted), plumbline::PhotoVerdict::ACCEPTED);
+  EXPECT_EQ(status_of(VerdictStatus::kWaiting), plumbline::PhotoVerdict::WAITING);
+  EXPECT_EQ(status_of(VerdictStatus::kRefused), plumbline::PhotoVerdict::REFUSED);
+}
+
 TEST(VerdictMsg, RefusesUnknownWordsNanAndCountsBeyondInt) {
   const plumbline::PhotoVerdict good = ToVerdictMsg(PhotoVerdict(), "map", ros::Time(1));
   ASSERT_TRUE(FromVerdictMsg(good));

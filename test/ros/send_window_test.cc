@@ -22,6 +22,18 @@ TEST(SendWindow, SendsTheOldestFirstAndFewAtATime) {
   EXPECT_EQ(window.Next(0.0), 3U);
 }
 
+TEST(SendWindow, KnowsTheOldestWithoutAnAnswer) {
+  SendWindow window = WindowOf({2, 1, 3});
+  EXPECT_EQ(window.Oldest(), 1U);
+  window.Next(0.0);
+  EXPECT_EQ(window.Oldest(), 1U);  // In flight.
+  window.Answer(1);
+  EXPECT_EQ(window.Oldest(), 2U);
+  window.Answer(2);
+  window.Answer(3);
+  EXPECT_EQ(window.Oldest(), std::nullopt);
+}
+
 TEST(SendWindow, SendsAgainWhatIsNotAnsweredInTime) {
   SendWindow window = WindowOf({1, 2, 3});
   EXPECT_EQ(window.Next(0.0), 1U);

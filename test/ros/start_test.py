@@ -30,7 +30,7 @@ class StartTest(wire.FolderTest):
         return self.end_of("camera_ingest", **{**defaults, **parameters})
 
     def tearDown(self):
-        for parameter in ("/start/camera_ingest", "/start/mapper"):
+        for parameter in ("/start/camera_ingest", "/start/mapper", "/start/mesher"):
             if rospy.has_param(parameter):
                 rospy.delete_param(parameter)
 
@@ -51,6 +51,12 @@ class StartTest(wire.FolderTest):
         said = self.end_of("mapper", session_folder=self.session)
         self.assertIn("mapper/localizer/min_num_inliers", said)
         self.assertIn("many", said)
+
+    def test_nested_parameters_of_the_mesher_are_checked(self):
+        rospy.set_param("/start/mesher/gaps", {"min_views": 1})
+        said = self.end_of("mesher", palette="rainbow")
+        self.assertIn("gaps.min_views must be at least 2, but is 1", said)
+        self.assertIn("palette must be paper or colour_blind", said)
 
     def test_a_missing_session_is_named(self):
         self.assertIn("session_folder", self.end_of("mapper"))

@@ -109,5 +109,23 @@ TEST_F(GeometryReportTest, NamesWhatIsUnusable) {
   EXPECT_THROW(Report(), std::runtime_error);
 }
 
+// A mesh 4 mm before the left half of the wall.
+TEST_F(GeometryReportTest, HoldsAMeshAgainstBothTruths) {
+  TriangleMesh mesh;
+  mesh.vertices = {{0, -0.004, 0}, {10, -0.004, 0}, {10, -0.004, 10}, {0, -0.004, 10}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  Json report = Json::object();
+  ReportMesh(truth_, test::MakeCamera(), mesh, &report);
+  for (const char* truth : {"surface", "laser"}) {
+    const Json& of_mesh = report.at("mesh").at(truth);
+    EXPECT_EQ(of_mesh.at("accuracy").at("points"), 20'000);
+    EXPECT_NEAR(of_mesh.at("accuracy").at("median_mm"), 4.0, 0.3);
+    EXPECT_NEAR(of_mesh.at("completeness").at("share_within").at("5 mm"), 0.5, 0.02);
+    EXPECT_NEAR(of_mesh.at("f_score").at("5 mm"), 2.0 * 0.5 / 1.5, 0.02);
+  }
+  mesh.triangles.clear();
+  EXPECT_THROW(ReportMesh(truth_, test::MakeCamera(), mesh, &report), std::runtime_error);
+}
+
 }  // namespace
 }  // namespace plumb::tools

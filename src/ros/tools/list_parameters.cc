@@ -8,6 +8,7 @@
 #include "ros/camera_ingest_options.h"
 #include "ros/mapper_ros_options.h"
 #include "ros/marker_detector_ros_options.h"
+#include "ros/mesher_ros_options.h"
 
 int main() {
   nlohmann::ordered_json nodes;
@@ -15,6 +16,7 @@ int main() {
   nodes["camera_ingest"] = plumb::OptionsToJson(plumb::ros_adapter::CameraIngestOptions());
   nodes["mapper"] = plumb::OptionsToJson(plumb::ros_adapter::MapperRosOptions());
   nodes["marker_detector"] = plumb::OptionsToJson(plumb::ros_adapter::MarkerDetectorRosOptions());
+  nodes["mesher"] = plumb::OptionsToJson(plumb::ros_adapter::MesherRosOptions());
   std::cout << nodes.dump(1) << '\n';
   return 0;
 }

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace plumb {
+
+struct QualityOptions {
+  // Noise of a measured pixel coordinate [px] while the bundle has too few residuals to tell it.
+  double default_noise_px = 0.5;
+
+  // One message per violated bound; empty if the options are usable.
+  std::vector<std::string> Problems() const;
+};
+
+template <typename Visitor>
+void VisitFields(QualityOptions& options, Visitor&& visit) {
+  visit("default_noise_px", options.default_noise_px);
+}
+
+}  // namespace plumb

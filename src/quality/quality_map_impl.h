@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Geometry>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "plumbline/quality/quality_map.h"
+#include "quality/bundle_noise.h"
+#include "quality/occluders.h"
+#include "quality/sight.h"
+
+namespace plumb {
+
+// Of a view and a block: for each face its StretchOfPixel, negative where the view is hidden, and 0
+// where the face is outside of the photo or turned away.
+using SightRow = std::vector<float>;
+
+class QualityMap::Impl {
+ public:
+  explicit Impl(const QualityOptions& options);
+
+  QualityUpdate SetCamera(const Camera& camera);
+  QualityUpdate Apply(const MapDelta& map_delta, const MeshDelta& mesh_delta);
+
+  const std::map<BlockId, QualityBlock>& blocks() const { return blocks_; }
+  const std::map<PhotoId, Rigid3>& views() const { return views_; }
+  const std::optional<Camera>& camera() const { return camera_; }
+  double noise_px() const { return noise_px_; }
+
+ private:
+  // What of a block is for the making of it only.
+  struct BlockState {
+    Eigen::AlignedBox3d box;           // Of the faces, which may reach out of the block.
+    std::map<PhotoId, SightRow> rows;  // Of views that have at least one value other than 0.
+  };
+
+  void ApplyViews(const MapDelta& delta);
+  void ApplyLens(const MapDelta& delta);
+  void SetView(const ViewState& view);
+  void RemoveView(PhotoId photo);
+  void ForgetSight(PhotoId photo);
+  void ApplyMesh(const MeshDelta& delta);
+  void SetBlock(const MeshBlock& block);
+  void RemoveBlock(const BlockId& id);
+  void NoteChange(const BlockId& id, const Eigen::AlignedBox3d& box);
+  void LookAnew();
+  void LookPast(PhotoId photo, const internal::Sight& sight);
+  void MakeRow(const BlockId& id, PhotoId photo, const internal::Sight& sight);
+  void Retest(const BlockId& id,
+              PhotoId photo,
+              const internal::Sight& sight,
+              const std::vector<std::uint32_t>& faces);
+  void Summarize(const BlockId& id);
+  void UpdateNoise();
+  QualityUpdate Finish();
+
+  QualityOptions options_;
+  std::optional<Camera> camera_;
+  std::shared_ptr<const internal::Lens> lens_;
+  std::map<PhotoId, Rigid3> views_;
+  std::map<PhotoId, internal::Sight> sights_;  // Empty while there is no camera.
+  std::map<BlockId, QualityBlock> blocks_;
+  std::map<BlockId, BlockState> states_;
+  std::map<PhotoId, std::set<BlockId>> blocks_of_view_;  // Where the view has a row.
+  internal::Occluders occluders_;
+  internal::BundleNoise noise_;
+  double noise_px_;
+
+  // Of the step that is being done.
+  std::set<PhotoId> changed_views_;
+  std::map<BlockId, Eigen::AlignedBox3d> changed_boxes_;  // Before and after.
+  std::set<BlockId> touched_blocks_;                      // Their rows are others.
+  QualityUpdate update_;
+};
+
+}  // namespace plumb

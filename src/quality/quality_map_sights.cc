@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is looked at anew after a change, and what comes of it.
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "quality/quality_map_impl.h"
+
+namespace plumb {
+namespace {
+
+using internal::ImageRect;
+using internal::PixelByPoint;
+using internal::Sight;
+
+// Steps of the noise: a change of a tenth is not worth painting the whole mesh anew.
+constexpr double kNoiseStep = 1.1;
+
+// sqrt of the largest eigenvalue of the inverse of the information, from the least eigenvalue of
+// the information itself.
+float LargestSigma(const Eigen::Matrix3d& information) {
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(information, Eigen::EigenvaluesOnly);
+  const double least = solver.eigenvalues()[0];
+  // Rays within a twentieth of a degree leave the depth open.
+  if (!(least > 1e-6 * solver.eigenvalues()[2])) return std::numeric_limits<float>::infinity();
+  return static_cast<float>(1.0 / std::sqrt(least));
+}
+
+}  // namespace
+
+void QualityMap::Impl::LookAnew() {
+  for (const auto& [photo, sight] : sights_) {
+    const bool is_new = changed_views_.count(photo) != 0;
+    if (!is_new) LookPast(photo, sight);
+    const auto look = [&, &photo = photo, &sight = sight](const BlockId& id) {
+      const BlockState& state = states_.at(id);
+      if (state.box.isEmpty()) return;
+      if (!sight.MayShow(state.box.center(), 0.5 * state.box.diagonal().norm())) return;
+      MakeRow(id, photo, sight);
+    };
+    if (is_new) {
+      for (const auto& [id, state] : states_) look(id);
+    } else {
+      for (const auto& [id, box] : changed_boxes_) {
+        if (states_.count(id) != 0) look(id);
+      }
+    }
+  }
+}
+
+// Tests anew the faces of unchanged blocks that the view has to see past a changed one: what covers
+// the same part of the image and is nearer may have come or gone.
+void QualityMap::Impl::LookPast(PhotoId photo, const Sight& sight) {
+  const auto shown = blocks_of_view_.find(photo);
+  if (shown == blocks_of_view_.end()) return;
+  std::vector<ImageRect> rects;
+  for (const auto& [id, box] : changed_boxes_) {
+    if (box.isEmpty() || !sight.MayShow(box.center(), 0.5 * box.diagonal().norm())) continue;
+    rects.push_back(sight.RectOf(box.min(), box.max()));
+  }
+  if (rects.empty()) return;
+  std::vector<std::uint32_t> faces;
+  std::vector<const ImageRect*> before;
+  for (const BlockId& id : shown->second) {
+    if (changed_boxes_.count(id) != 0) continue;
+    const BlockState& state = states_.at(id);
+    const ImageRect own = sight.RectOf(state.box.min(), state.box.max());
+    before.clear();
+    for (const ImageRect& rect : rects) {
+      if (rect.Meets(own) && rect.min_depth < own.max_depth) before.push_back(&rect);
+    }
+    if (before.empty()) continue;
+    faces.clear();
+    const SightRow& row = state.rows.at(photo);
+    const std::vector<FaceShape>& shapes = blocks_.at(id).shapes;
+    for (std::uint32_t i = 0; i < row.size(); ++i) {
+      if (row[i] == 0.0F) continue;
+      const Eigen::Vector3d seen = sight.Seen(shapes[i].center_in_map);
+      const bool is_behind = std::any_of(before.begin(), before.end(), [&](const ImageRect* rect) {
+        return seen.z() > rect->min_depth && seen.x() >= rect->min.x() &&
+               seen.x() <= rect->max.x() && seen.y() >= rect->min.y() && seen.y() <= rect->max.y();
+      });
+      if (is_behind) faces.push_back(i);
+    }
+    if (!faces.empty()) Retest(id, photo, sight, faces);
+  }
+}
+
+void QualityMap::Impl::MakeRow(const BlockId& id, PhotoId photo, const Sight& sight) {
+  const std::vector<FaceShape>& shapes = blocks_.at(id).shapes;
+  update_.num_faces_tested += shapes.size();
+  SightRow row(shapes.size(), 0.0F);
+  std::vector<std::uint32_t> faces;
+  for (std::uint32_t i = 0; i < shapes.size(); ++i) {
+    const FaceShape& shape = shapes[i];
+    const Eigen::Vector3d towards_eye = sight.eye_in_map() - shape.center_in_map;
+    if (!(shape.normal_in_map.dot(towards_eye) > 0.0)) continue;
+    const std::optional<PixelByPoint> pixel_by_point = sight.Look(shape.center_in_map);
+    if (!pixel_by_point) continue;
+    row[i] = static_cast<float>(internal::StretchOfPixel(*pixel_by_point, shape.normal_in_map));
+    if (row[i] > 0.0F) {
+      faces.push_back(i);
+    } else {
+      row[i] = 0.0F;  // Not a number.
+    }
+  }
+  if (faces.empty()) return;
+  states_.at(id).rows.insert_or_assign(photo, std::move(row));
+  blocks_of_view_[photo].insert(id);
+  touched_blocks_.insert(id);
+  Retest(id, photo, sight, faces);
+}
+
+void QualityMap::Impl::Retest(const BlockId& id,
+                              PhotoId photo,
+                              const Sight& sight,
+                              const std::vector<std::uint32_t>& faces) {
+  const QualityBlock& block = blocks_.at(id);
+  std::vector<Eigen::Vector3d> centers;
+  centers.reserve(faces.size());
+  for (const std::uint32_t face : faces) centers.push_back(block.shapes[face].center_in_map);
+  std::vector<char> is_hidden;
+  occluders_.FindHidden(block.mesh, centers, faces, sight.eye_in_map(), &is_hidden);
+  update_.num_rays += faces.size();
+  SightRow& row = states_.at(id).rows.at(photo);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    float& value = row[faces[i]];
+    const float now = is_hidden[i] != 0 ? -std::abs(value) : std::abs(value);
+    if (now == value) continue;
+    value = now;
+    touched_blocks_.insert(id);
+  }
+}
+
+void QualityMap::Impl::Summarize(const BlockId& id) {
+  QualityBlock& block = blocks_.at(id);
+  std::vector<FaceQuality> qualities(block.shapes.size());
+  std::vector<Eigen::Matrix3d> information(block.shapes.size(), Eigen::Matrix3d::Zero());
+  for (const auto& [photo, row] : states_.at(id).rows) {
+    const Sight& sight = sights_.at(photo);
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (row[i] == 0.0F) continue;
+      FaceQuality& quality = qualities[i];
+      if (row[i] < 0.0F) {
+        ++quality.num_hidden;
+        continue;
+      }
+      ++quality.num_views;
+      quality.gsd = std::min(quality.gsd, row[i]);
+      const PixelByPoint jacobian = sight.Jacobian(block.shapes[i].center_in_map);
+      information[i].noalias() += jacobian.transpose() * jacobian;
+    }
+  }
+  for (std::size_t i = 0; i < qualities.size(); ++i) {
+    if (qualities[i].num_views >= 2) qualities[i].sigma_per_px = LargestSigma(information[i]);
+  }
+  if (changed_boxes_.count(id) != 0 || qualities != block.qualities) update_.blocks.push_back(id);
+  block.qualities = std::move(qualities);
+}
+
+void QualityMap::Impl::UpdateNoise() {
+  double noise_px = options_.default_noise_px;
+  const auto estimate = camera_ ? noise_.Estimate(*camera_, views_) : std::nullopt;
+  if (estimate && *estimate > 0.0) {
+    noise_px = std::pow(kNoiseStep, std::round(std::log(*estimate) / std::log(kNoiseStep)));
+  }
+  update_.is_noise_changed = noise_px != noise_px_;
+  noise_px_ = noise_px;
+}
+
+QualityUpdate QualityMap::Impl::Finish() {
+  for (const BlockId& id : touched_blocks_) {
+    if (blocks_.count(id) != 0) {
+      Summarize(id);
+    } else {
+      update_.blocks.push_back(id);
+    }
+  }
+  UpdateNoise();
+  update_.num_views_changed = changed_views_.size();
+  changed_views_.clear();
+  changed_boxes_.clear();
+  touched_blocks_.clear();
+  return std::exchange(update_, {});
+}
+
+}  // namespace plumb

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <plumbline/Gaps.h>
+#include <plumbline/PhotoVerdict.h>
+#include <ros/node_handle.h>
+#include <rviz/panel.h>
+#include <sensor_msgs/Image.h>
+
+#include <QButtonGroup>
+#include <QCheckBox>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QListWidget>
+#include <QPushButton>
+#include <QTimer>
+#include <future>
+#include <string>
+#include <vector>
+
+#include "rviz/flight_status.h"
+
+namespace rviz {
+class Display;
+}
+
+namespace plumb::rviz_panel {
+
+// For the pilot: what became of the last photo, how far the mapper is behind, what the colours
+// mean, and where to fly next. Large and black on white, for the sun. Lives in RViz's thread, in
+// which ROS calls it back; services are asked in threads of their own.
+class FlightPanel : public rviz::Panel {
+  Q_OBJECT
+
+ public:
+  explicit FlightPanel(QWidget* parent = nullptr);
+  ~FlightPanel() override;
+
+  void onInitialize() override;
+  void load(const rviz::Config& config) override;
+  void save(rviz::Config config) const override;
+
+ private Q_SLOTS:
+  void OnLayer(int layer);
+  void OnWantedGsd();
+  void OnPalette(bool is_color_blind);
+  void OnGapClicked(int row);
+  void OnWholeView();
+  void OnSave();
+  void OnTimer();
+
+ private:
+  // What a service answered, or that it did not.
+  struct Answer {
+    bool is_good = false;
+    std::string text;
+  };
+
+  void BuildWindow();
+  QWidget* BuildPhotos();
+  QWidget* BuildLayers();
+  QWidget* BuildGaps();
+  void Connect();
+  void SubscribeLegend();
+  void ShowStatus();
+  void ShowLayer();
+  void ShowAnswer(std::future<Answer>* answer);
+  void AskDisplay(double wanted_gsd, const std::string& palette);
+  rviz::Display* DisplayOf(const std::string& layer);
+
+  void OnVerdict(const plumbline::PhotoVerdict& msg);
+  void OnDiagnostics(const diagnostic_msgs::DiagnosticArray& msg);
+  void OnGaps(const plumbline::Gaps& msg);
+  void OnLegend(const sensor_msgs::Image& msg);
+
+  std::string namespace_ = "/plumbline";
+  int layer_ = 0;
+  FlightStatus status_;
+  plumbline::Gaps gaps_;
+
+  ros::NodeHandle handle_;
+  std::vector<ros::Subscriber> subscribers_;
+  ros::Subscriber legend_subscriber_;
+  std::future<Answer> save_answer_;
+  std::future<Answer> display_answer_;
+  QTimer* timer_;
+
+  QLabel* lamp_;
+  QLabel* counts_;
+  QLabel* behind_;
+  QLabel* trouble_;
+  QButtonGroup* layers_;
+  QLabel* legend_;
+  QLabel* wanted_unit_;
+  QDoubleSpinBox* wanted_gsd_;
+  QCheckBox* is_color_blind_;
+  QLabel* gaps_title_;
+  QListWidget* gap_list_;
+  QPushButton* save_;
+  QLabel* answer_;
+};
+
+}  // namespace plumb::rviz_panel

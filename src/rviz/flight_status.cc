@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rviz/flight_status.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace plumb::rviz_panel {
+namespace {
+
+// Nodes speak every second.
+constexpr double kSilentAfter_s = 4.0;
+
+const char* const kIngest = "camera_ingest";
+const char* const kMapper = "mapper";
+
+std::string Words(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+}  // namespace
+
+void FlightStatus::OnVerdict(const plumbline::PhotoVerdict& verdict) {
+  if (verdict.sequence < newest_photo_) return;
+  newest_photo_ = verdict.sequence;
+  if (verdict.status == plumbline::PhotoVerdict::ACCEPTED) {
+    lamp_ = Lamp::kGreen;
+    sentence_ = verdict.name + " accepted.";
+  } else if (verdict.status == plumbline::PhotoVerdict::WAITING) {
+    lamp_ = Lamp::kYellow;
+    sentence_ = verdict.name + " waits. " + verdict.hint;
+  } else {
+    lamp_ = Lamp::kRed;
+    sentence_ = verdict.name + " REFUSED: " + Words(verdict.reason) + ". " + verdict.hint;
+  }
+}
+
+void FlightStatus::OnDiagnostics(const diagnostic_msgs::DiagnosticArray& diagnostics,
+                                 double now_s) {
+  for (const diagnostic_msgs::DiagnosticStatus& status : diagnostics.status) {
+    for (const char* const node : {kIngest, kMapper, "mesher"}) {
+      if (status.hardware_id != node) continue;
+      NodeStatus& known = nodes_[node];
+      known.heard_s = now_s;
+      known.values.clear();
+      for (const diagnostic_msgs::KeyValue& value : status.values) {
+        known.values[value.key] = value.value;
+      }
+      const bool is_error = status.level == diagnostic_msgs::DiagnosticStatus::ERROR;
+      known.error = is_error ? status.message : "";
+    }
+  }
+}
+
+std::optional<double> FlightStatus::Value(const char* node, const char* key, double now_s) const {
+  const auto known = nodes_.find(node);
+  if (known == nodes_.end() || now_s - known->second.heard_s > kSilentAfter_s) return std::nullopt;
+  const auto value = known->second.values.find(key);
+  if (value == known->second.values.end()) return std::nullopt;
+  char* end = nullptr;
+  const double number = std::strtod(value->second.c_str(), &end);
+  if (end == value->second.c_str() || !std::isfinite(number)) return std::nullopt;
+  return number;
+}
+
+std::optional<int> FlightStatus::Count(const char* node, const char* key, double now_s) const {
+  const std::optional<double> value = Value(node, key, now_s);
+  if (!value || std::abs(*value) > 1e9) return std::nullopt;
+  return static_cast<int>(*value);
+}
+
+std::optional<int> FlightStatus::num_taken(double now_s) const {
+  return Count(kIngest, "photos taken", now_s);
+}
+
+std::optional<int> FlightStatus::num_accepted(double now_s) const {
+  return Count(kMapper, "photos accepted", now_s);
+}
+
+std::optional<int> FlightStatus::num_refused(double now_s) const {
+  return Count(kMapper, "photos refused", now_s);
+}
+
+std::optional<int> FlightStatus::num_waiting(double now_s) const {
+  const std::optional<int> taken = num_taken(now_s);
+  const std::optional<int> accepted = num_accepted(now_s);
+  const std::optional<int> refused = num_refused(now_s);
+  if (!taken || !accepted || !refused) return Count(kMapper, "photos waiting", now_s);
+  return std::max(0, *taken - *accepted - *refused);  // The nodes do not speak at the same time.
+}
+
+std::optional<double> FlightStatus::seconds_behind(double now_s) const {
+  return Value(kIngest, "seconds behind the camera", now_s);
+}
+
+std::string FlightStatus::trouble(double now_s) const {
+  for (const auto& [name, node] : nodes_) {
+    if (now_s - node.heard_s > kSilentAfter_s) return name + " is silent.";
+    if (!node.error.empty()) return name + ": " + node.error;
+  }
+  return {};
+}
+
+}  // namespace plumb::rviz_panel

@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "surface/labelled_cells.h"
+
+#include "plumbline/common/stopwatch.h"
+#include "surface/cell_weights.h"
+#include "surface/ray_cast.h"
+
+namespace plumb {
+namespace {
+
+// Removing a vertex costs some four times as much as inserting one: beyond this share of moving
+// landmarks all of them are inserted anew.
+constexpr double kMaxShareMoved = 0.25;
+
+}  // namespace
+
+LabelledCells::LabelledCells(const SurfaceOptions& options)
+    : options_(options), scene_(options), tetrahedra_(std::make_unique<Tetrahedra>(&cut_)) {}
+
+void LabelledCells::Apply(const MapDelta& delta, SurfaceReport* report) {
+  for (const CutNode node : changed_nodes_) is_changed_[node] = 0;
+  changed_nodes_.clear();
+  Stopwatch watch;
+  const std::size_t num_before = scene_.num_placed();
+  SceneChanges changes = scene_.Apply(delta, report);
+  report->scene_s = watch.Restart();
+
+  const double max_moved = kMaxShareMoved * static_cast<double>(num_before);
+  report->is_rebuilt = num_before > 0 && static_cast<double>(changes.removed.size()) > max_moved;
+  if (report->is_rebuilt) {
+    Rebuild();
+    changes.recast.clear();
+  } else {
+    tetrahedra_->Remove(changes.removed);
+    InsertSlots(changes.inserted);
+  }
+  report->tetrahedra_s = watch.Restart();
+
+  Cast(changes.recast, report);
+  ConnectCreated();
+  Weigh(report);
+  report->weights_s = watch.Restart();
+
+  cut_.Solve();
+  for (const CutNode node : cut_.changed()) MarkChanged(node);
+  report->num_labels_changed = cut_.changed().size();
+  report->cut_s = watch.Restart();
+
+  redrawn_ = std::move(changes.redrawn);
+  tetrahedra_->ClearChanges();
+  report->num_cells = cut_.num_nodes();
+  report->num_vertices = tetrahedra_->triangulation().number_of_vertices();
+}
+
+std::int64_t LabelledCells::Energy() const {
+  return EnergyOf(options_, tetrahedra_->triangulation(), cut_);
+}
+
+void LabelledCells::Rebuild() {
+  for (const Cell cell : tetrahedra_->triangulation().finite_cell_handles()) {
+    if (cell->info().node != kNoCutNode) MarkChanged(cell->info().node);
+  }
+  cut_ = DynamicCut();
+  tetrahedra_ = std::make_unique<Tetrahedra>(&cut_);
+  InsertSlots(scene_.PlacedSlots());
+}
+
+void LabelledCells::InsertSlots(const std::vector<Slot>& slots) {
+  std::vector<Tetrahedra::Place> places;
+  places.reserve(slots.size());
+  for (const Slot slot : slots) {
+    places.push_back({slot, scene_.IdOf(slot), scene_.PlaceOf(slot)});
+  }
+  tetrahedra_->Insert(std::move(places));
+}
+
+void LabelledCells::Cast(const std::vector<Slot>& recast, SurfaceReport* report) {
+  if (!tetrahedra_->HasCells()) return;
+  std::vector<char> is_cast(scene_.num_slots(), 0);
+  for (const std::vector<Slot>* slots : {&tetrahedra_->touched(), &recast}) {
+    for (const Slot slot : *slots) {
+      if (is_cast[slot] != 0 || tetrahedra_->VertexOf(slot) == Vertex()) continue;
+      is_cast[slot] = 1;
+      CastSlot(slot, report);
+    }
+  }
+}
+
+void LabelledCells::CastSlot(Slot slot, SurfaceReport* report) {
+  scene_.RaysOf(slot, &rays_);
+  CastRays(tetrahedra_->triangulation(), tetrahedra_->VertexOf(slot), rays_, &star_);
+  for (const Cell cell : star_) {
+    if (cell->info().node != kNoCutNode) MarkChanged(cell->info().node);
+  }
+  report->num_rays_cast += rays_.size();
+}
+
+void LabelledCells::ConnectCreated() {
+  for (const CutNode node : tetrahedra_->created()) {
+    const Cell cell = tetrahedra_->CellOf(node);
+    if (cell == Cell()) continue;
+    for (int i = 0; i < 4; ++i) {
+      const Cell neighbor = cell->neighbor(i);
+      const CutNode other = neighbor->info().node;
+      const auto slot = static_cast<std::uint32_t>(i);
+      if (other == kNoCutNode || cut_.NeighborOf(node, slot) != kNoCutNode) continue;
+      cut_.Connect(node, slot, other, static_cast<std::uint32_t>(neighbor->index(cell)));
+    }
+  }
+}
+
+void LabelledCells::Weigh(SurfaceReport* report) {
+  for (const std::vector<CutNode>* nodes :
+       {&tetrahedra_->created(), &tetrahedra_->destroyed(), &tetrahedra_->bereft()}) {
+    for (const CutNode node : *nodes) MarkChanged(node);
+  }
+  for (const CutNode node : changed_nodes_) {
+    const Cell cell = tetrahedra_->CellOf(node);
+    if (cell == Cell()) continue;
+    ++report->num_cells_changed;
+    cut_.SetTerminal(node, TerminalOf(options_, tetrahedra_->triangulation(), cell));
+    for (int i = 0; i < 4; ++i) {
+      if (cell->neighbor(i)->info().node == kNoCutNode) continue;
+      cut_.SetCapacity(node, static_cast<std::uint32_t>(i), FaceWeightOf(options_, cell, i));
+    }
+  }
+}
+
+void LabelledCells::MarkChanged(CutNode node) {
+  if (is_changed_.size() <= node) is_changed_.resize(node + 1, 0);
+  if (is_changed_[node] != 0) return;
+  is_changed_[node] = 1;
+  changed_nodes_.push_back(node);
+}
+
+}  // namespace plumb

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "plumbline/map/map_delta.h"
+#include "plumbline/surface/surface_options.h"
+#include "plumbline/surface/surface_report.h"
+#include "surface/dynamic_cut.h"
+#include "surface/ray_scene.h"
+#include "surface/tetrahedra.h"
+
+namespace plumb {
+
+// The scene, its tetrahedra, and which of them are free: all that comes before the mesh. Kept up
+// to date delta by delta; a function of the map's content.
+class LabelledCells {
+ public:
+  explicit LabelledCells(const SurfaceOptions& options);
+
+  void Apply(const MapDelta& delta, SurfaceReport* report);
+
+  // Infinite cells are free.
+  bool IsFree(Cell cell) const {
+    return cell->info().node == kNoCutNode || cut_.IsAtSource(cell->info().node);
+  }
+  std::int64_t Energy() const;
+
+  const RayScene& scene() const { return scene_; }
+  const Tetrahedra& tetrahedra() const { return *tetrahedra_; }
+  const DynamicCut& cut() const { return cut_; }
+  const SurfaceOptions& options() const { return options_; }
+
+  // By the last Apply: nodes whose cells are gone, other, or stand otherwise to the mesh (their
+  // label, their rays or a neighbour changed), each once; and landmarks drawn elsewhere.
+  const std::vector<CutNode>& changed_nodes() const { return changed_nodes_; }
+  const std::vector<Slot>& redrawn() const { return redrawn_; }
+
+ private:
+  void ChangeTetrahedra(const SceneChanges& changes, SurfaceReport* report);
+  void Rebuild();
+  void InsertSlots(const std::vector<Slot>& slots);
+  void Cast(const std::vector<Slot>& recast, SurfaceReport* report);
+  void CastSlot(Slot slot, SurfaceReport* report);
+  void ConnectCreated();
+  void Weigh(SurfaceReport* report);
+  void MarkChanged(CutNode node);
+
+  SurfaceOptions options_;
+  RayScene scene_;
+  DynamicCut cut_;
+  std::unique_ptr<Tetrahedra> tetrahedra_;
+  std::vector<char> is_changed_;  // By node.
+  std::vector<CutNode> changed_nodes_;
+  std::vector<Slot> redrawn_;
+  std::vector<SceneRay> rays_;
+  std::vector<Cell> star_;
+};
+
+}  // namespace plumb

@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "surface/ray_cast.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <limits>
+
+namespace plumb {
+namespace {
+
+using Point = SurfaceKernel::Point_3;
+
+// Rays of a landmark come from much the same side: a search seldom takes more than ten steps.
+constexpr int kMaxSteps = 100;
+
+// On which side of the face opposite to corner `i` the point lies; positive: that of the corner.
+CGAL::Orientation SideOf(Cell cell, int i, const Point& point) {
+  std::array<const Point*, 4> corners = {&cell->vertex(0)->point(),
+                                         &cell->vertex(1)->point(),
+                                         &cell->vertex(2)->point(),
+                                         &cell->vertex(3)->point()};
+  corners[static_cast<std::size_t>(i)] = &point;
+  return CGAL::orientation(*corners[0], *corners[1], *corners[2], *corners[3]);
+}
+
+// The same for a ray from or into a vertex of the face: what lies behind is mirrored in the vertex.
+CGAL::Orientation SideOfRay(Cell cell, int i, const Point& camera, RaySide side) {
+  const CGAL::Orientation orientation = SideOf(cell, i, camera);
+  return side == RaySide::kTowardsCamera ? orientation : CGAL::opposite(orientation);
+}
+
+std::array<LandmarkId, 4> SortedIds(Cell cell) {
+  std::array<LandmarkId, 4> ids = {cell->vertex(0)->info().id,
+                                   cell->vertex(1)->info().id,
+                                   cell->vertex(2)->info().id,
+                                   cell->vertex(3)->info().id};
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+std::uint16_t* CountFor(std::array<std::uint16_t, 4>* counts, int i) {
+  return &(*counts)[static_cast<std::size_t>(i)];
+}
+
+void Increase(std::uint16_t* count) {
+  if (*count < std::numeric_limits<std::uint16_t>::max()) ++*count;
+}
+
+}  // namespace
+
+Cell FindRayCellInStar(const Triangulation& triangulation,
+                       Vertex vertex,
+                       const Point& camera,
+                       RaySide side,
+                       const std::vector<Cell>& star) {
+  Cell best;
+  std::array<LandmarkId, 4> best_ids;
+  for (const Cell cell : star) {
+    if (triangulation.is_infinite(cell)) continue;
+    const int index = cell->index(vertex);
+    bool is_inside = true;
+    for (int i = 0; i < 4 && is_inside; ++i) {
+      is_inside = i == index || SideOfRay(cell, i, camera, side) != CGAL::NEGATIVE;
+    }
+    if (!is_inside) continue;
+    const std::array<LandmarkId, 4> ids = SortedIds(cell);
+    if (best != Cell() && !(ids < best_ids)) continue;
+    best = cell;
+    best_ids = ids;
+  }
+  return best;
+}
+
+Cell FindRayCell(const Triangulation& triangulation,
+                 Vertex vertex,
+                 const Point& camera,
+                 RaySide side,
+                 Cell hint) {
+  Cell cell = hint;
+  Cell previous;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const int index = cell->index(vertex);
+    Cell next;
+    bool is_on_face = false;
+    for (int i = 0; i < 4 && next == Cell(); ++i) {
+      if (i == index || cell->neighbor(i) == previous) continue;
+      const CGAL::Orientation orientation = SideOfRay(cell, i, camera, side);
+      if (orientation == CGAL::NEGATIVE) next = cell->neighbor(i);
+      is_on_face = is_on_face || orientation == CGAL::ZERO;
+    }
+    if (next == Cell()) {
+      if (!is_on_face) return cell;
+      break;
+    }
+    // The hull is convex: beyond one of its faces, nothing is inside.
+    if (triangulation.is_infinite(next)) return Cell();
+    previous = cell;
+    cell = next;
+  }
+  std::vector<Cell> star;
+  triangulation.incident_cells(vertex, std::back_inserter(star));
+  return FindRayCellInStar(triangulation, vertex, camera, side, star);
+}
+
+void CastRays(const Triangulation& triangulation,
+              Vertex vertex,
+              const std::vector<SceneRay>& rays,
+              std::vector<Cell>* star) {
+  star->clear();
+  triangulation.incident_cells(vertex, std::back_inserter(*star));
+  Cell front;
+  for (const Cell cell : *star) {
+    if (triangulation.is_infinite(cell)) continue;
+    const int i = cell->index(vertex);
+    CellInfo& info = cell->info();
+    *CountFor(&info.num_passing, i) = 0;
+    *CountFor(&info.num_crossing, i) = 0;
+    *CountFor(&info.num_behind, i) = 0;
+    if (front == Cell()) front = cell;
+  }
+  Cell back = front;
+  if (front == Cell()) return;
+  for (const SceneRay& ray : rays) {
+    const Point camera = ToCgal(ray.camera);
+    const Cell passed = FindRayCell(triangulation, vertex, camera, RaySide::kTowardsCamera, front);
+    if (passed != Cell()) {
+      front = passed;
+      const int i = passed->index(vertex);
+      Increase(CountFor(&passed->info().num_passing, i));
+      // Unless the camera hovers within the cell.
+      if (SideOf(passed, i, camera) == CGAL::NEGATIVE) {
+        Increase(CountFor(&passed->info().num_crossing, i));
+      }
+    }
+    const Cell behind = FindRayCell(triangulation, vertex, camera, RaySide::kAwayFromCamera, back);
+    if (behind == Cell()) continue;
+    back = behind;
+    Increase(CountFor(&behind->info().num_behind, behind->index(vertex)));
+  }
+}
+
+}  // namespace plumb

@@ -1,0 +1,213 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "surface/surface_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "surface/outward_face.h"
+
+namespace plumb {
+namespace {
+
+std::uint32_t ArcOf(Cell cell, int i) {
+  return DynamicCut::kDegree * cell->info().node + static_cast<std::uint32_t>(i);
+}
+
+std::int32_t BlockIndex(double position, double side) {
+  constexpr double kLimit = std::numeric_limits<std::int32_t>::max();
+  return static_cast<std::int32_t>(std::clamp(std::floor(position / side), -kLimit, kLimit));
+}
+
+}  // namespace
+
+SurfaceMesh::SurfaceMesh(const SurfaceOptions& options)
+    : block_side_(options.block_side_m / options.metres_per_map_unit),
+      support_(options),
+      islands_(options.min_island_faces) {}
+
+MeshDelta SurfaceMesh::Update(const LabelledCells& cells) {
+  num_checked_ = 0;
+  DropFaces(cells);
+  CheckFaces(cells);
+  MoveRedrawn(cells);
+  std::vector<FaceIdx> candidates = islands_.Update(touched_slots_, &pool_);
+  candidates.insert(candidates.end(), added_.begin(), added_.end());
+
+  MeshDelta delta;
+  Publish(candidates, &delta);
+  MarkRedrawn(cells);
+  for (const BlockId& block : dirty_blocks_) {
+    delta.blocks.push_back(MakeBlock(cells.scene(), block));
+  }
+  unpublished_.clear();
+  added_.clear();
+  touched_slots_.clear();
+  dirty_blocks_.clear();
+  return delta;
+}
+
+MeshDelta SurfaceMesh::Snapshot(const RayScene& scene) const {
+  MeshDelta snapshot;
+  snapshot.is_snapshot = true;
+  for (const BlockId& id : pool_.Blocks()) {
+    MeshBlock block = MakeBlock(scene, id);
+    if (block.faces.empty()) continue;
+    for (std::size_t i = 0; i < block.faces.size(); ++i) {
+      snapshot.faces_added.push_back(block.KeyOf(i));
+    }
+    snapshot.blocks.push_back(std::move(block));
+  }
+  std::sort(snapshot.faces_added.begin(), snapshot.faces_added.end());
+  return snapshot;
+}
+
+// All faces that may have changed go, and come back if they are still there.
+void SurfaceMesh::DropFaces(const LabelledCells& cells) {
+  for (const CutNode node : cells.changed_nodes()) {
+    for (std::uint32_t i = 0; i < DynamicCut::kDegree; ++i) {
+      DropAt(DynamicCut::kDegree * node + i);
+    }
+    const Cell cell = cells.tetrahedra().CellOf(node);
+    if (cell == Cell()) continue;
+    for (int i = 0; i < 4; ++i) {
+      const Cell neighbor = cell->neighbor(i);
+      if (neighbor->info().node != kNoCutNode) DropAt(ArcOf(neighbor, neighbor->index(cell)));
+    }
+  }
+}
+
+void SurfaceMesh::DropAt(std::uint32_t arc) {
+  const FaceIdx face = pool_.AtArc(arc);
+  if (face == kNoFace) return;
+  const Face& gone = pool_[face];
+  touched_slots_.insert(touched_slots_.end(), gone.slots.begin(), gone.slots.end());
+  if (gone.is_published) unpublished_[gone.key] = gone.block;
+  pool_.Remove(face);
+}
+
+void SurfaceMesh::CheckFaces(const LabelledCells& cells) {
+  for (const CutNode node : cells.changed_nodes()) {
+    const Cell cell = cells.tetrahedra().CellOf(node);
+    if (cell == Cell()) continue;
+    const bool is_free = cells.IsFree(cell);
+    for (int i = 0; i < 4; ++i) {
+      const Cell neighbor = cell->neighbor(i);
+      if (cells.IsFree(neighbor) == is_free) continue;
+      if (is_free) {
+        CheckFace(cells, neighbor, neighbor->index(cell));
+      } else {
+        CheckFace(cells, cell, i);
+      }
+    }
+  }
+}
+
+void SurfaceMesh::CheckFace(const LabelledCells& cells, Cell cell, int i) {
+  const std::uint32_t arc = ArcOf(cell, i);
+  if (pool_.AtArc(arc) != kNoFace) return;
+  ++num_checked_;
+  const FaceSlots slots = OutwardFace(cell, i);
+  if (support_.IsSupported(cells.scene(), slots)) AddFace(cells.scene(), arc, slots);
+}
+
+void SurfaceMesh::AddFace(const RayScene& scene, std::uint32_t arc, const FaceSlots& slots) {
+  const FaceKey key = {scene.IdOf(slots[0]), scene.IdOf(slots[1]), scene.IdOf(slots[2])};
+  added_.push_back(pool_.Add(arc, slots, key, BlockOf(scene, slots)));
+  touched_slots_.insert(touched_slots_.end(), slots.begin(), slots.end());
+}
+
+// Moves the faces of landmarks that are drawn elsewhere to the blocks they now lie in.
+void SurfaceMesh::MoveRedrawn(const LabelledCells& cells) {
+  for (const Slot slot : cells.redrawn()) {
+    for (const FaceIdx face : pool_.AroundSlot(slot)) {
+      const BlockId block = BlockOf(cells.scene(), pool_[face].slots);
+      if (block == pool_[face].block) continue;
+      if (pool_[face].is_published) dirty_blocks_.insert({pool_[face].block, block});
+      pool_.MoveTo(face, block);
+    }
+  }
+}
+
+void SurfaceMesh::MarkRedrawn(const LabelledCells& cells) {
+  for (const Slot slot : cells.redrawn()) {
+    for (const FaceIdx face : pool_.AroundSlot(slot)) {
+      if (pool_[face].is_published) dirty_blocks_.insert(pool_[face].block);
+    }
+  }
+}
+
+// Compares faces that are new or whose mark changed, and those that are gone, with what was sent.
+void SurfaceMesh::Publish(const std::vector<FaceIdx>& faces, MeshDelta* delta) {
+  for (const FaceIdx idx : faces) {
+    const Face& face = pool_[idx];
+    if (face.is_published == !face.is_island) continue;
+    if (face.is_published) {
+      unpublished_[face.key] = face.block;
+      pool_.SetPublished(idx, false);
+      continue;
+    }
+    pool_.SetPublished(idx, true);
+    const auto before = unpublished_.find(face.key);
+    if (before == unpublished_.end()) {
+      delta->faces_added.push_back(face.key);
+      dirty_blocks_.insert(face.block);
+      continue;
+    }
+    if (before->second != face.block) dirty_blocks_.insert({before->second, face.block});
+    unpublished_.erase(before);
+  }
+  for (const auto& [key, block] : unpublished_) {
+    delta->faces_removed.push_back(key);
+    dirty_blocks_.insert(block);
+  }
+  std::sort(delta->faces_added.begin(), delta->faces_added.end());
+  num_published_ += delta->faces_added.size();
+  num_published_ -= delta->faces_removed.size();
+}
+
+BlockId SurfaceMesh::BlockOf(const RayScene& scene, const FaceSlots& slots) const {
+  const Eigen::Vector3d centroid =
+      (scene.MeshPositionOf(slots[0]) + scene.MeshPositionOf(slots[1]) +
+       scene.MeshPositionOf(slots[2])) /
+      3.0;
+  return {BlockIndex(centroid.x(), block_side_),
+          BlockIndex(centroid.y(), block_side_),
+          BlockIndex(centroid.z(), block_side_)};
+}
+
+MeshBlock SurfaceMesh::MakeBlock(const RayScene& scene, const BlockId& id) const {
+  MeshBlock block;
+  block.id = id;
+  std::vector<const Face*> faces;
+  std::vector<std::pair<LandmarkId, Slot>> corners;
+  for (const FaceIdx idx : pool_.InBlock(id)) {
+    const Face& face = pool_[idx];
+    if (!face.is_published) continue;
+    faces.push_back(&face);
+    for (std::size_t k = 0; k < 3; ++k) corners.emplace_back(face.key[k], face.slots[k]);
+  }
+  std::sort(
+      faces.begin(), faces.end(), [](const Face* a, const Face* b) { return a->key < b->key; });
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  block.vertices.reserve(corners.size());
+  for (const auto& [landmark, slot] : corners) {
+    block.vertices.push_back({landmark, scene.MeshPositionOf(slot), scene.ColorOf(slot)});
+  }
+  block.faces.reserve(faces.size());
+  for (const Face* face : faces) {
+    std::array<std::uint32_t, 3> indices;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::pair<LandmarkId, Slot> corner(face->key[k], face->slots[k]);
+      const auto it = std::lower_bound(corners.begin(), corners.end(), corner);
+      indices[k] = static_cast<std::uint32_t>(it - corners.begin());
+    }
+    block.faces.push_back(indices);
+  }
+  return block;
+}
+
+}  // namespace plumb

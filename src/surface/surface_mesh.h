@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "plumbline/surface/mesh_delta.h"
+#include "plumbline/surface/surface_options.h"
+#include "surface/face_pool.h"
+#include "surface/face_support.h"
+#include "surface/islands.h"
+#include "surface/labelled_cells.h"
+
+namespace plumb {
+
+// The mesh between free and occupied cells, in blocks. Kept up to date from what LabelledCells
+// says has changed.
+class SurfaceMesh {
+ public:
+  explicit SurfaceMesh(const SurfaceOptions& options);
+
+  // Gives what changed in the mesh; all but the numbers of the delta.
+  MeshDelta Update(const LabelledCells& cells);
+
+  // The whole mesh; all but the numbers of the delta. `scene` is that of the last update.
+  MeshDelta Snapshot(const RayScene& scene) const;
+
+  std::size_t num_faces() const { return num_published_; }
+  std::size_t num_checked() const { return num_checked_; }  // By the last update.
+
+ private:
+  void DropFaces(const LabelledCells& cells);
+  void DropAt(std::uint32_t arc);
+  void CheckFaces(const LabelledCells& cells);
+  void CheckFace(const LabelledCells& cells, Cell cell, int i);
+  void AddFace(const RayScene& scene, std::uint32_t arc, const FaceSlots& slots);
+  void MoveRedrawn(const LabelledCells& cells);
+  void MarkRedrawn(const LabelledCells& cells);
+  void Publish(const std::vector<FaceIdx>& faces, MeshDelta* delta);
+  BlockId BlockOf(const RayScene& scene, const FaceSlots& slots) const;
+  MeshBlock MakeBlock(const RayScene& scene, const BlockId& id) const;
+
+  double block_side_;  // In map units.
+  FaceSupport support_;
+  IslandFinder islands_;
+  FacePool pool_;
+  std::size_t num_published_ = 0;
+  std::size_t num_checked_ = 0;
+
+  // Of the update under way.
+  std::map<FaceKey, BlockId> unpublished_;  // Were in the mesh that was last sent.
+  std::vector<FaceIdx> added_;
+  std::vector<Slot> touched_slots_;
+  std::set<BlockId> dirty_blocks_;
+};
+
+}  // namespace plumb

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <iostream>
+#include <memory>
+
+#include "plumbline/common/options.h"
+#include "tools/commands.h"
+#include "tools/mesh_session.h"
+#include "tools/options_yaml.h"
+
+namespace plumb::tools {
+namespace {
+
+struct MeshArguments {
+  std::string session;
+  std::string folder;
+  std::vector<std::string> settings;
+};
+
+SurfaceOptions ReadOptions(const std::vector<std::string>& settings) {
+  SurfaceOptions options;
+  for (const std::string& setting : settings) {
+    ReadValue(ParseSetting(setting), {"--set " + setting, ""}, &options);
+  }
+  ThrowIfProblems("surface", options.Problems());
+  return options;
+}
+
+}  // namespace
+
+void AddMeshCommand(CLI::App* app, ExitCode* exit_code) {
+  CLI::App* command = app->add_subcommand("mesh", "Make the surface of a session's map");
+  command->footer(
+      "Writes mesh.ply and mesh.obj, triangles between the landmarks in the map's frame and unit "
+      "of "
+      "length, and prints a line of JSON: counts, seconds of each stage, and what of the map could "
+      "not be used. The mesh is the one that a flight ends with; see docs/surface.md.");
+  const auto arguments = std::make_shared<MeshArguments>();
+  command->add_option("--session", arguments->session, "Folder of the session")->required();
+  command->add_option(
+      "--to,--output", arguments->folder, "Folder to write to (default: SESSION/export)");
+  command->add_option("--set", arguments->settings, "KEY=VALUE: an option of the surface; repeat")
+      ->allow_extra_args(false);
+  command->callback([arguments, exit_code] {
+    const SurfaceOptions options = ReadOptions(arguments->settings);
+    const SessionStore store = SessionStore::OpenExisting(arguments->session);
+    const std::string folder =
+        arguments->folder.empty() ? arguments->session + "/export" : arguments->folder;
+    std::cout << MeshSession(options, store, folder).dump() << '\n';
+    *exit_code = kDone;
+  });
+}
+
+}  // namespace plumb::tools

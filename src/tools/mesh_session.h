@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "plumbline/map/session_store.h"
+#include "plumbline/surface/surface_options.h"
+
+namespace plumb::tools {
+
+// Writes mesh.ply and mesh.obj of the session's map into `folder`, which is made if need be; gives
+// counts, seconds and what was left out. Throws std::runtime_error naming the file and the cause,
+// std::invalid_argument for the options.
+nlohmann::ordered_json MeshSession(const SurfaceOptions& options,
+                                   const SessionStore& store,
+                                   const std::string& folder);
+
+}  // namespace plumb::tools

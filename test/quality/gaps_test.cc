@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plumbline/quality/gaps.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "plumbline/quality/quality_map.h"
+#include "test/quality/quality_scene.h"
+
+namespace plumb {
+namespace {
+
+using Vector = Eigen::Vector3d;
+
+// A wall of 12 m x 4 m and photos before it, from 5 m: 6 m x 4 m each.
+class Gaps : public testing::Test {
+ protected:
+  Gaps() {
+    test::AddGrid({0, 0, 0}, {12, 0, 0}, {0, 0, 4}, 48, 16, &soup_);
+    map_.SetCamera(test::SmallCamera());
+  }
+
+  void Photograph(const Vector& eye) {
+    const auto photo = static_cast<std::uint32_t>(delta_.views_set.size());
+    delta_.views_set.push_back(test::MakeView(photo, test::LookAt(eye, eye + Vector(0, 1, 0))));
+  }
+
+  void PhotographLeftOf(double x_end) {
+    for (double x = 0.0; x < x_end - 2.9; x += 0.7) Photograph({x, -5, 2});
+  }
+
+  std::vector<Gap> Find() {
+    delta_.is_snapshot = true;
+    map_.Apply(delta_, test::SnapshotOf(soup_));
+    return FindGaps(options_, map_.blocks(), measure_, 1.0);
+  }
+
+  test::Soup soup_;
+  MapDelta delta_;
+  QualityMap map_{QualityOptions()};
+  GapOptions options_ = [] {
+    GapOptions options;
+    options.wanted_gsd_mm = 12.0;  // 5 m with 500 px gives 10 mm, and more off the axis.
+    return options;
+  }();
+  Measure measure_{1.0, 500.0, 0.5};
+};
+
+TEST_F(Gaps, AreNoneWhereThereAreEnoughFinePhotos) {
+  for (double x = -2.0; x < 15.0; x += 0.7) Photograph({x, -5, 2});
+  EXPECT_THAT(Find(), testing::IsEmpty());
+}
+
+TEST_F(Gaps, AreWhereTooFewPhotosSee) {
+  PhotographLeftOf(8.0);
+  const std::vector<Gap> gaps = Find();
+  ASSERT_THAT(gaps, testing::Not(testing::IsEmpty()));
+  for (const Gap& gap : gaps) {
+    EXPECT_GT(gap.center_in_map.x(), 4.0);
+    EXPECT_NEAR(gap.normal_in_map.y(), -1.0, 1e-6);
+    EXPECT_GT(gap.share_unsure, 0.9);
+    EXPECT_LT(gap.num_views, 3);
+    EXPECT_LE(gap.area, 9.0 + 1e-6);  // What one photo takes in.
+  }
+}
+
+TEST_F(Gaps, AreNoneWhereNoCameraLooks) {  // The wall's end, and its back.
+  PhotographLeftOf(6.0);
+  test::AddGrid({0, 0.3, 0}, {0, 0, 4}, {12, 0, 0}, 16, 48, &soup_);
+  for (const Gap& gap : Find()) {
+    EXPECT_LT(gap.center_in_map.y(), 0.2);
+    EXPECT_LT(gap.center_in_map.x(), 8.0);
+  }
+}
+
+// Law: who follows the advice closes the gap.
+TEST_F(Gaps, AreClosedByPhotosFromWhereTheySay) {
+  PhotographLeftOf(6.0);
+  Photograph({8.5, -9, 2});  // Too coarse, and alone.
+  std::vector<Gap> gaps = Find();
+  int num_rounds = 0;
+  for (; !gaps.empty() && num_rounds < 12; ++num_rounds) {
+    for (const Gap& gap : gaps) {
+      for (const double aside : {-0.4, 0.0, 0.4}) {
+        Photograph(gap.camera_in_map + Vector(aside, 0, 0));
+      }
+    }
+    gaps = Find();
+  }
+  EXPECT_THAT(gaps, testing::IsEmpty());
+  EXPECT_LE(num_rounds, 4);
+}
+
+TEST_F(Gaps, AreWhereThePhotosAreTooCoarse) {
+  for (double x = -4.0; x < 16.0; x += 0.7) Photograph({x, -8, 2});
+  const std::vector<Gap> gaps = Find();
+  ASSERT_THAT(gaps, testing::Not(testing::IsEmpty()));
+  EXPECT_EQ(gaps[0].share_unsure, 0.0);
+  EXPECT_NEAR(gaps[0].gsd, 16.0, 1.5);
+  EXPECT_NEAR((gaps[0].camera_in_map - gaps[0].center_in_map).norm(), 0.85 * 6.0, 1e-6);  // 12 mm.
+  for (std::size_t i = 1; i < gaps.size(); ++i) EXPECT_LE(gaps[i].area, gaps[i - 1].area);
+  options_.max_gaps = 2;
+  EXPECT_EQ(Find().size(), 2U);
+  options_.wanted_gsd_mm = 40.0;
+  EXPECT_THAT(Find(), testing::IsEmpty());
+}
+
+TEST_F(Gaps, OfAMapThatIsNotMetricCompareWithTheFirstPhotos) {
+  measure_.metres_per_map_unit.reset();
+  for (double x = -6.0; x < 18.0; x += 0.7) Photograph({x, -13, 2});
+  EXPECT_THAT(Find(), testing::IsEmpty());  // 1.3 of 10 units, 1.5 are wanted.
+  options_.wanted_relative_gsd = 1.0;
+  const std::vector<Gap> gaps = Find();
+  ASSERT_THAT(gaps, testing::Not(testing::IsEmpty()));
+  EXPECT_NEAR((gaps[0].camera_in_map - gaps[0].center_in_map).norm(), 0.85 * 10.0, 1e-6);
+}
+
+TEST_F(Gaps, DoNotComeFromSingleSmallFaces) {
+  for (double x = -2.0; x < 15.0; x += 0.7) Photograph({x, -5, 2});
+  // A lid before one face hides it from all.
+  test::AddGrid({6.0, -0.01, 2.0}, {0.2, 0, 0}, {0, 0, 0.2}, 1, 1, &soup_);
+  EXPECT_THAT(Find(), testing::IsEmpty());
+  options_.min_area_share = 0.001;
+  EXPECT_EQ(Find().size(), 1U);
+}
+
+Gap MakeGap() {
+  Gap gap;
+  gap.center_in_map = {10, 0, 2};
+  gap.normal_in_map = {0, -1, 0};
+  gap.camera_in_map = {10, -4, 2};
+  gap.num_views = 1;
+  gap.share_unsure = 1.0;
+  gap.gsd = 8.0;
+  return gap;
+}
+
+TEST(Advice, SaysHowFarAndWhichWay) {
+  const Rigid3 cam_from_map = test::LookAt({7, -6, 3}, {7, 0, 3});
+  const Measure measure{1.0, 500.0, 0.5};
+  EXPECT_EQ(Advice(MakeGap(), GapOptions(), measure, cam_from_map),
+            "Only 1 photo sees it. Fly 3.0 m right, 1.0 m down, 2.0 m closer.");
+  const Move move = MoveTo(MakeGap(), cam_from_map);
+  EXPECT_NEAR(move.right, 3.0, 1e-9);
+  EXPECT_NEAR(move.up, -1.0, 1e-9);
+  EXPECT_NEAR(move.forward, 2.0, 1e-9);
+}
+
+TEST(Advice, IsInMetresOfTheGroundWhateverTheMapsUnit) {
+  const Rigid3 cam_from_map = test::LookAt({7, -6, 3}, {7, 0, 3});
+  const Measure measure{10.0, 500.0, 0.5};
+  EXPECT_EQ(Advice(MakeGap(), GapOptions(), measure, cam_from_map),
+            "Only 1 photo sees it. Fly 30 m right, 10 m down, 20 m closer.");
+}
+
+TEST(Advice, IsInDistancesToTheGapWhileTheMapIsNotMetric) {
+  const Rigid3 cam_from_map = test::LookAt({10, -8, 2}, {10, 0, 2});
+  EXPECT_EQ(Advice(MakeGap(), GapOptions(), {std::nullopt, 500.0, 0.5}, cam_from_map),
+            "Only 1 photo sees it. Fly 0.5 x closer (x: your distance to it).");
+}
+
+TEST(Advice, SaysWhatIsTooCoarseAndNotToMoveWhereOneIsRight) {
+  Gap gap = MakeGap();
+  gap.share_unsure = 0.2;
+  const Rigid3 cam_from_map = test::LookAt({10, -4, 2}, {10, 0, 2});
+  EXPECT_EQ(Advice(gap, GapOptions(), {1.0, 500.0, 0.5}, cam_from_map),
+            "Too coarse, 8.0 mm instead of 5.0 mm. Take a photo here.");
+}
+
+TEST(GapOptions, RefusesNonsense) {
+  GapOptions options;
+  EXPECT_THAT(options.Problems(), testing::IsEmpty());
+  options.wanted_gsd_mm = std::numeric_limits<double>::quiet_NaN();
+  options.min_views = 1;
+  EXPECT_EQ(options.Problems().size(), 2U);
+}
+
+}  // namespace
+}  // namespace plumb
