@@ -54,7 +54,7 @@ CameraIngest::CameraIngest(const ros::NodeHandle& handle, const CameraIngestOpti
   for (const TakenPhoto& photo : intake_.photos()) window_.Add(photo.sequence);
   photo_publisher_ = handle_.advertise<plumbline::Photo>("photo", 100);
   Subscribe();
-  diagnostics_.setHardwareID("camera");
+  diagnostics_.setHardwareID("camera_ingest");
   diagnostics_.add("photos", this, &CameraIngest::Diagnose);
   timer_ = handle_.createWallTimer(ros::WallDuration(kTimerPeriod_s), [this](const auto&) {
     TakeImages();

@@ -24,6 +24,9 @@ constexpr std::array<float, 3> kRefusedInk = {0.8F, 0.0F, 0.0F};
 
 constexpr int kRingSides = 24;
 
+// The worst gaps show the photo to take; more of them would hide the wall.
+constexpr std::size_t kNumFramedGaps = 3;
+
 std_msgs::ColorRGBA Ink(const std::array<float, 3>& rgb) {
   std_msgs::ColorRGBA color;
   color.r = rgb[0];
@@ -203,7 +206,7 @@ visualization_msgs::MarkerArray DrawGaps(const std::vector<Gap>& gaps,
                                  "gap_number",
                                  id,
                                  header));
-    array.markers.push_back(PhotoFrame(gap, id, header));
+    if (i < kNumFramedGaps) array.markers.push_back(PhotoFrame(gap, id, header));
   }
   if (!gaps.empty() && newest_cam_from_map) {
     array.markers.push_back(WayTo(gaps[0], *newest_cam_from_map, header));

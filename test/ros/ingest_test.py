@@ -106,6 +106,7 @@ class IngestTest(wire.FolderTest):
         self.wait_for_sequence(2)
         self.assertEqual({photo.name for photo in self.photos.all()},
                          {"DJI_0001.JPG", "101MEDIA_DJI_0001.JPG"})
+        diagnostics.wait_for_figure("camera_ingest", "photos taken", "2")
         self.card.rename(self.folder / "pulled")
         diagnostics.wait_for_error("Put the card in")
         (self.folder / "pulled").rename(self.card)

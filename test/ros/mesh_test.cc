@@ -124,6 +124,18 @@ TEST(DrawGaps, ShowsThemAndTheWayToTheFirst) {
   EXPECT_EQ(DrawGaps({}, cam_from_map, MakeHeader()).markers.size(), 1U);
 }
 
+TEST(DrawGaps, OnlyTheWorstShowThePhotoToTake) {
+  int num_frames = 0;
+  int num_numbers = 0;
+  for (const Marker& marker :
+       DrawGaps(std::vector<Gap>(20, MakeGap()), std::nullopt, MakeHeader()).markers) {
+    if (marker.ns == "gap_photo") ++num_frames;
+    if (marker.ns == "gap_number") ++num_numbers;
+  }
+  EXPECT_EQ(num_frames, 3);
+  EXPECT_EQ(num_numbers, 20);
+}
+
 TEST(DrawGaps, OfAHorizontalGapHasAxesToo) {
   Gap gap = MakeGap();
   gap.normal_in_map = {0, 0, 1};

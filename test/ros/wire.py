@@ -91,6 +91,12 @@ class Diagnostics(Heard):
         self._wait_for_news(lambda status: status.level == DiagnosticStatus.ERROR and
                             text in status.message, f"an ERROR with '{text}'")
 
+    def wait_for_figure(self, node, key, value):
+        """As the panel reads it: by the node's hardware id."""
+        self._wait_for_news(lambda status: status.hardware_id == node and any(
+            pair.key == key and pair.value == value for pair in status.values),
+                            f"{key} {value} of {node}")
+
     def wait_for_no_error(self):
         self._wait_for_news(lambda status: status.level != DiagnosticStatus.ERROR, "no ERROR")
 

@@ -12,7 +12,7 @@ struct SurfaceOptions {
   // The energy (paper, section III.C). Whole numbers: sums of them are exact, so that the least cut
   // is the same however it was arrived at.
   int alpha_free = 128;  // For each ray that passes a cell labelled occupied.
-  int alpha_occ = 128;   // For each ray that ends before a cell labelled free.
+  int alpha_occ = 96;    // For each ray that ends before a cell labelled free.
 
   // Between cells of unlike labels, through a face that a ray crosses first; times 0 to 2 by the
   // angles of the face. Each side of the face counts.
