@@ -13,11 +13,12 @@ import os
 import sys
 import traceback
 
-from benchmark import calibration, markers, realism, reconstruction, scenarios, surface
+from benchmark import calibration, display, markers, realism, reconstruction, scenarios, surface
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 SECTIONS = {"reconstruction": reconstruction, "realism": realism, "scenarios": scenarios,
-            "markers": markers, "calibration": calibration, "surface": surface}
+            "markers": markers, "calibration": calibration, "surface": surface,
+            "display": display}
 
 
 def built_program():
