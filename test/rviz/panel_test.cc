@@ -128,7 +128,10 @@ TEST_F(PanelTest, TheLampTellsWhatBecameOfTheLastPhoto) {
   Publish(2, plumbline::PhotoVerdict::REFUSED, "too_blurred", "Fly slower.");
   WaitFor([] { return TextOf("lamp") == "photo2.jpg REFUSED: too blurred. Fly slower."; }, "red");
   EXPECT_THAT(Find<QLabel>("lamp")->styleSheet().toStdString(), testing::HasSubstr("#c40000"));
-  Publish(1, plumbline::PhotoVerdict::ACCEPTED, "none", "");  // An older photo, tried again, changes nothing.
+  Publish(1,
+          plumbline::PhotoVerdict::ACCEPTED,
+          "none",
+          "");  // An older photo, tried again, changes nothing.
   Publish(3, plumbline::PhotoVerdict::WAITING, "none", "Take another.");
   WaitFor([] { return TextOf("lamp") == "photo3.jpg waits. Take another."; }, "yellow");
 }

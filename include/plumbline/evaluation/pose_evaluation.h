@@ -45,9 +45,9 @@ struct PoseEvaluation {
 // what is left. If that leaves centres beyond the tolerance, the similarity is that of the largest
 // set of centres within it, if it is more than half of them: one wrong pose then does not
 // spoil the others'. If no centre is farther than the tolerance from one line, they do not tell the
-// turn about it: it is taken from the cameras' rotations. Photos are paired by name. Deterministic. Throws std::runtime_error if fewer
-// than three photos are in both or their centres lie on a line, for the alignment is then not
-// determined.
+// turn about it: it is taken from the cameras' rotations. Photos are paired by name. Deterministic.
+// Throws std::runtime_error if fewer than three photos are in both or their centres lie on a line,
+// for the alignment is then not determined.
 PoseEvaluation EvaluatePoses(const std::vector<ViewState>& views,
                              const std::vector<TruePose>& truth,
                              const PoseTolerance& tolerance = {});
