@@ -22,7 +22,7 @@ using visualization_msgs::Marker;
 constexpr double kTextPerExtent = 0.045;
 
 // Of RViz's letters, in their height.
-constexpr double kLetterWidth = 0.68;
+constexpr double kLetterWidth = 0.54;
 constexpr double kLineHeight = 1.4;
 
 // No target's.
@@ -144,14 +144,15 @@ class Drawer {
     drawing_.markers.push_back(marker);
   }
 
-  // On a plate, for dark letters before the points of a facade are not legible. `lowest` is the
-  // middle of its lower edge; it faces the map's first camera.
+  // On a plate, for dark letters before the points of a facade are not legible. A point of POINTS
+  // is such a plate: it faces the viewer, as the text does. `lowest` is the middle of its lower
+  // edge.
   void DrawText(const char* name,
                 int id,
                 const Eigen::Vector3d& lowest,
                 const std::string& text,
                 const std_msgs::ColorRGBA& color) {
-    Marker plate = Begin("plates_of_targets", id, Marker::CUBE);
+    Marker plate = Begin("plates_of_targets", id, Marker::POINTS);
     std::istringstream lines(text);
     double num_lines = 0.0;
     double num_letters = 0.0;
@@ -159,14 +160,13 @@ class Drawer {
       num_letters = std::max(num_letters, static_cast<double>(line.size()));
     }
     plate.scale.x = text_size_ * (kLetterWidth * num_letters + 0.8);
-    plate.scale.y = 0.05 * text_size_;
-    plate.scale.z = text_size_ * (kLineHeight * num_lines + 0.3);
-    const Eigen::Vector3d middle = lowest + Eigen::Vector3d(0.0, -size_, 0.5 * plate.scale.z);
-    plate.pose.position = ToPointMsg(middle);
+    plate.scale.y = text_size_ * (kLineHeight * num_lines + 0.3);
+    const Eigen::Vector3d middle = lowest + Eigen::Vector3d(0.0, -size_, 0.5 * plate.scale.y);
+    plate.points = {ToPointMsg(middle)};
     plate.color = Color(255, 255, 255);
     drawing_.markers.push_back(plate);
     Marker marker = Begin(name, id, Marker::TEXT_VIEW_FACING);
-    marker.pose.position = ToPointMsg(middle - Eigen::Vector3d(0.0, 0.2 * text_size_, 0.0));
+    marker.pose.position = ToPointMsg(middle - Eigen::Vector3d(0.0, 0.5 * text_size_, 0.0));
     marker.scale.z = text_size_;
     marker.color = color;
     marker.text = text;

@@ -150,6 +150,24 @@ class GeoreferenceTest(wire.FolderTest):
         return self.write_survey("swapped.csv", rows), {int(control[1]["id"]),
                                                         int(control[4]["id"])}
 
+    def load_on_earth(self):
+        """The same targets in Austria, where no photo was taken."""
+        statics = wire.Heard("/tf_static", TFMessage)
+        self.addCleanup(statics.close)
+        rows = [{**row, "x_m": float(row["x_m"]) - 68000.0, "y_m": float(row["y_m"]) + 212000.0}
+                for row in self.survey]
+        path = self.write_survey("austria.csv", rows)
+        answer = self.load(path, crs="EPSG:31256", heights="ellipsoidal")
+        self.assertTrue(answer.success, answer.message)
+        placed = self.wait_for(lambda g: g.survey == str(path) and g.is_on_earth, "Austria")
+        self.assertEqual(placed.source, "targets")
+        self.assertIn("gps_disagrees", codes(placed))
+        heard = statics.wait(len, "earth to enu")[-1].transforms[0]
+        self.assertEqual((heard.header.frame_id, heard.child_frame_id), ("earth", "enu"))
+        self.assertEqual(heard.transform, placed.earth_from_enu)
+        place = heard.transform.translation
+        self.assertAlmostEqual(numpy.hypot(place.x, place.y), 4.25e6, delta=5e4)
+
     def test_a_flight_is_placed_while_it_is_flown_and_the_mapper_is_told(self):
         scales = self.hear("metres_per_map_unit", Float64)
         drawings = self.hear("targets", MarkerArray)
@@ -212,6 +230,7 @@ class GeoreferenceTest(wire.FolderTest):
                          ids)
         self.assertIn("exchanged_targets", codes(wrong))
 
+        self.load_on_earth()
         self.assertTrue(self.load("").success)
         self.wait_for(lambda g: g.survey == "" and g.source == "gps" and g.is_coarse, "GPS alone")
         self.assertIsNone(flight.poll())
