@@ -128,6 +128,7 @@ if(benchmark_FOUND AND APRILTAG_FOUND AND TARGET opencv_aruco)
   # The marker detector is measured beside two others.
   target_link_libraries(marker_benchmark PRIVATE plumb_marker opencv_aruco PkgConfig::APRILTAG
                         nlohmann_json::nlohmann_json)
+  target_link_libraries(georeference_benchmark PRIVATE plumb_georeference)
   # The calibration beside OpenCV's.
   target_link_libraries(calibration_benchmark PRIVATE plumb_calibration
                         nlohmann_json::nlohmann_json)

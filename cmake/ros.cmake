@@ -20,6 +20,9 @@ add_message_files(FILES CalibrationProgress.msg CoverageBar.msg)
 # The mesh and its quality.
 add_message_files(FILES Gap.msg Gaps.msg MeshBlock.msg MeshDelta.msg)
 add_service_files(FILES GetMesh.srv SetMeshDisplay.srv)
+add_message_files(FILES ControlPoint.msg ControlPoints.msg Georeference.msg GeoreferenceFinding.msg
+                  PhotoPositions.msg SearchedPhotos.msg TargetResidual.msg)
+add_service_files(FILES GetMarkerDetections.srv LoadSurvey.srv)
 generate_messages(DEPENDENCIES geometry_msgs sensor_msgs std_msgs)
 catkin_package(CATKIN_DEPENDS message_runtime geometry_msgs sensor_msgs std_msgs)
 
@@ -29,7 +32,7 @@ add_dependencies(plumb_ros ${PROJECT_NAME}_generate_messages_cpp)
 target_include_directories(plumb_ros PUBLIC ${PROJECT_SOURCE_DIR}/src)
 target_include_directories(plumb_ros SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/include
                            ${catkin_INCLUDE_DIRS})
-target_link_libraries(plumb_ros PUBLIC plumb_export plumb_marker ${catkin_LIBRARIES}
+target_link_libraries(plumb_ros PUBLIC plumb_export plumb_georeference ${catkin_LIBRARIES}
                       PRIVATE plumb_warnings)
 target_link_libraries(plumb_ros PUBLIC plumb_quality)
 

@@ -214,16 +214,37 @@ def print_accuracy(session, truth):
             print(f"Largest bend of the flat wall: {result['wall']['max_bend_mm']:.1f} mm")
 
 
+def print_georeference(georeference):
+    """Prints what the last Georeference message says; nothing without targets and GPS."""
+    if georeference is None or (georeference.source == "none" and not georeference.targets):
+        return
+    compared = [target for target in georeference.targets if target.state in ("good", "wrong")]
+    for target in compared:
+        print(f"  target {target.name}: {target.role}, {target.state}, {target.error_mm:.1f} mm "
+              f"(expected {target.sigma_mm:.1f}), in {target.num_used} photos")
+    for role in ("control", "check"):
+        if number := getattr(georeference, f"num_{role}"):
+            print(f"{number} {role} points: mean {getattr(georeference, f'{role}_mean_mm'):.2f} mm, "
+                  f"largest {getattr(georeference, f'{role}_max_mm'):.2f} mm")
+    scale = georeference.metres_per_map_unit
+    print(f"Placed by: {georeference.source}" + (f", {scale:.6f} m a map unit" if scale else ""))
+    for finding in georeference.findings:
+        print(f"  {finding.severity}: {finding.text}")
+
+
 def run_flight(launch, arguments):
     """Flies; returns whether each photo was answered and one was accepted."""
     import rospy  # After ROS_MASTER_URI is set.
-    from plumbline.msg import PhotoVerdict, StoredPhotos
+    from plumbline.msg import Georeference, PhotoVerdict, StoredPhotos
     from std_srvs.srv import Trigger
 
     session = arguments.out / "session"
     verdicts = Verdicts()
     rospy.init_node("demo", anonymous=True, disable_signals=True)
     rospy.Subscriber("/plumbline/photo_verdict", PhotoVerdict, verdicts.hear, queue_size=1000)
+    georeferences = [None]
+    rospy.Subscriber("/plumbline/georeference", Georeference,
+                     lambda heard: georeferences.append(heard), queue_size=1000)
     is_mapping = threading.Event()
     rospy.Subscriber("/plumbline/stored_photos", StoredPhotos, lambda _: is_mapping.set())
     if not launch.wait_for(is_mapping.is_set, START_DEADLINE_S):
@@ -241,6 +262,7 @@ def run_flight(launch, arguments):
         print_accuracy(session, arguments.photos.parent / "ground_truth")
     else:
         print("No photo was accepted: there is no map.")
+    print_georeference(georeferences[-1])
     print(f"Report: {session / 'report.json'}")
     return is_any_accepted and verdicts.num_photos() == len(photos)
 
@@ -255,6 +277,8 @@ def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--photos", required=True, type=pathlib.Path, help="folder of photos, with its sub-folders")
     parser.add_argument("--camera", required=True, type=pathlib.Path, help="camera_info YAML")
+    parser.add_argument("--survey", type=pathlib.Path,
+                        help="of the targets; by default the survey.csv beside the photos, if any")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("build/demo"),
                         help="folder for pictures and session; emptied first")
     parser.add_argument("--every", type=float, default=1.0, help="seconds from photo to photo")
@@ -272,6 +296,8 @@ def main():
         sys.exit(f"{arguments.photos} holds no photos: give PHOTOS= and CAMERA=")
     check_camera(arguments.camera)
     arguments.photos = arguments.photos.resolve()
+    beside = arguments.photos.parent / "survey.csv"
+    survey = arguments.survey or (beside if beside.exists() else None)
     arguments.out = arguments.out.resolve()
     shutil.rmtree(arguments.out, ignore_errors=True)
     (arguments.out / "card").mkdir(parents=True)
@@ -283,6 +309,7 @@ def main():
         ["roslaunch", "--no-summary", "-p", str(port), "plumbline", "flight.launch",
          f"photos:={arguments.out / 'card'}", f"camera:={arguments.camera.resolve()}",
          f"session:={arguments.out / 'session'}", "respawn:=false",
+         f"survey:={survey.resolve() if survey else ''}",
          f"record:={str(arguments.record).lower()}"])
     try:
         wait_for_master(launch)

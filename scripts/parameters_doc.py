@@ -14,8 +14,8 @@ import sys
 SOURCE = pathlib.Path(__file__).resolve().parents[1]
 PAGE = SOURCE / "docs" / "parameters.md"
 ROOTS = {"calibrator": "CalibratorRosOptions", "camera_ingest": "CameraIngestOptions",
-         "mapper": "MapperRosOptions", "marker_detector": "MarkerDetectorRosOptions",
-         "mesher": "MesherRosOptions"}
+         "georeferencer": "GeoreferencerRosOptions", "mapper": "MapperRosOptions",
+         "marker_detector": "MarkerDetectorRosOptions", "mesher": "MesherRosOptions"}
 
 STRUCT = re.compile(r"^struct (\w+Options) \{$")
 FIELD = re.compile(r"^  ([\w:]+) (\w+)(?: = .*?)?(?:;|\{|\[)(?:.*?;)?(?:\s*//\s*(.*))?")

@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-FileCopyrightText: 2026 The Plumbline authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Plays the photos of a recorded flight once a mapper listens: BAG RATE, and what roslaunch adds.
+# Plays the photos of a recorded flight once all its topics are heard: BAG RATE, further topics, and
+# what roslaunch adds.
 set -euo pipefail
 bag=$1
 rate=$2

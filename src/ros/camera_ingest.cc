@@ -15,6 +15,7 @@
 #include "ros/camera_conversion.h"
 #include "ros/geometry_conversion.h"
 #include "ros/photo_conversion.h"
+#include "ros/position_conversion.h"
 
 namespace plumb::ros_adapter {
 namespace {
@@ -53,12 +54,15 @@ CameraIngest::CameraIngest(const ros::NodeHandle& handle, const CameraIngestOpti
   }
   for (const TakenPhoto& photo : intake_.photos()) window_.Add(photo.sequence);
   photo_publisher_ = handle_.advertise<plumbline::Photo>("photo", 100);
+  positions_publisher_ =
+      handle_.advertise<plumbline::PhotoPositions>("photo_positions", 1, /*latch=*/true);
   Subscribe();
   diagnostics_.setHardwareID("camera_ingest");
   diagnostics_.add("photos", this, &CameraIngest::Diagnose);
   timer_ = handle_.createWallTimer(ros::WallDuration(kTimerPeriod_s), [this](const auto&) {
     TakeImages();
     SendDue();
+    PublishPositions();
     diagnostics_.update();
   });
   if (watcher_) watching_ = std::thread([this] { WatchFolder(); });
@@ -92,6 +96,7 @@ void CameraIngest::SetCamera(const Camera& camera) {
   }
   const std::lock_guard<std::mutex> lock(mutex_);
   camera_ = camera;
+  has_new_positions_ = true;
 }
 
 void CameraIngest::Subscribe() {
@@ -235,6 +240,7 @@ void CameraIngest::Enqueue(const TakenPhoto& photo) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     window_.Add(photo.sequence);
+    has_new_positions_ = true;
   }
   SendDue();
 }
@@ -344,6 +350,22 @@ double CameraIngest::SecondsBehind() const {
   const std::optional<std::uint32_t> oldest = window_.Oldest();
   if (!oldest) return 0.0;
   return static_cast<double>(Now().ns - intake_.photo(*oldest).received.ns) * 1e-9;
+}
+
+void CameraIngest::PublishPositions() {
+  PhotoPositions positions;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!std::exchange(has_new_positions_, false)) return;
+    positions.camera = camera_;
+  }
+  for (const TakenPhoto& photo : intake_.photos()) {
+    if (photo.position) positions.position_of_photo[PhotoId{photo.sequence}] = *photo.position;
+  }
+  std_msgs::Header header;
+  header.frame_id = options_.camera_frame_id;
+  header.stamp = ros::Time::now();
+  positions_publisher_.publish(ToPhotoPositionsMsg(positions, header));
 }
 
 void CameraIngest::Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {

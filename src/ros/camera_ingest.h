@@ -83,18 +83,21 @@ class CameraIngest {
   void SendDue();
   void Send(std::uint32_t sequence);
   double SecondsBehind() const;
+  void PublishPositions();
   void Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   ros::NodeHandle handle_;
   CameraIngestOptions options_;
   PhotoIntake intake_;
   ros::Publisher photo_publisher_;
+  ros::Publisher positions_publisher_;
   std::vector<ros::Subscriber> subscribers_;
   ros::WallTimer timer_;
   diagnostic_updater::Updater diagnostics_;
 
   std::mutex mutex_;  // Of what follows.
   std::optional<Camera> camera_;
+  bool has_new_positions_ = true;  // Or a new camera, to be published.
   SendWindow window_;
   ros::Time mapper_started_;
   Trouble folder_trouble_;

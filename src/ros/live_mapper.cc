@@ -141,6 +141,20 @@ std::map<PhotoId, PhotoVerdict> LiveMapper::verdicts() const {
   return verdicts_;
 }
 
+void LiveMapper::SetConstraints(BundleConstraints constraints) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  new_constraints_ = std::move(constraints);
+}
+
+void LiveMapper::TakeConstraints() {
+  std::optional<BundleConstraints> constraints;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    constraints = std::exchange(new_constraints_, std::nullopt);
+  }
+  if (constraints) mapper_->SetConstraints(std::move(*constraints));
+}
+
 void LiveMapper::Poll() {
   if (mapping_->counters().queue_depth == 0) mapping_->TryPush(PollRequest());
 }
@@ -193,6 +207,7 @@ void LiveMapper::Analyze(AnalysisItem item) {
 
 void LiveMapper::Map(MappingItem item) {
   try {
+    TakeConstraints();
     if (auto* photo = std::get_if<AnalyzedPhoto>(&item)) {
       MapPhoto(std::move(*photo));
     } else if (auto* request = std::get_if<FinishRequest>(&item)) {

@@ -65,6 +65,9 @@ class LiveMapper {
   // queue is full: offer it again later.
   bool Offer(WirePhoto photo);
 
+  // Mapper::SetConstraints before the next photo, or the next Poll. Returns at once.
+  void SetConstraints(BundleConstraints constraints);
+
   // Lets the mapper look at what its background has found, if it has nothing else to do.
   void Poll();
 
@@ -103,6 +106,7 @@ class LiveMapper {
   StoredSession ReadSession();
   void Analyze(AnalysisItem item);
   void Map(MappingItem item);
+  void TakeConstraints();
   void MapPhoto(AnalyzedPhoto photo);
   RunReport MakeReport() const;
   void Store(const StorageItem& item);
@@ -125,7 +129,8 @@ class LiveMapper {
   std::set<PhotoId> in_work_;
   std::map<PhotoId, PhotoVerdict> verdicts_;
   std::exception_ptr failure_;
-  std::string storage_trouble_;  // Of the item that is being written.
+  std::optional<BundleConstraints> new_constraints_;  // That the mapper has not got yet.
+  std::string storage_trouble_;                       // Of the item that is being written.
   Clock::time_point trouble_since_;
 
   std::atomic<bool> is_stopping_{false};

@@ -40,9 +40,12 @@ MapPublisher::MapPublisher(const ros::NodeHandle& handle,
                            const Camera& camera)
     : options_(options),
       camera_(camera),
+      service_handle_(handle),
       service_spinner_(1, &service_queue_),
       drawing_(1, [this](Wake) { Draw(); }),
-      publishing_(kMaxDeltaQueue, [this](const MapDelta& delta) { PublishDelta(delta); }) {
+      publishing_(kMaxDeltaQueue, [this](const std::optional<MapDelta>& delta) {
+        delta ? PublishDelta(*delta) : AdvertiseMap();
+      }) {
   ros::NodeHandle own(handle);
   delta_publisher_ = own.advertise<plumbline::MapDelta>("map_delta", 1000);
   camera_publisher_ = own.advertise<sensor_msgs::CameraInfo>("session_camera", 1, /*latch=*/true);
@@ -57,14 +60,19 @@ MapPublisher::MapPublisher(const ros::NodeHandle& handle,
                                     [this](const auto&) { drawing_.TryPush({}); });
   tf_timer_ = own.createWallTimer(ros::WallDuration(kTfPeriod_s),
                                   [this](const auto&) { BroadcastFrames(); });
-  own.setCallbackQueue(&service_queue_);
-  get_map_server_ = own.advertiseService("get_map", &MapPublisher::GetMap, this);
+  service_handle_.setCallbackQueue(&service_queue_);
   service_spinner_.start();
 }
 
 MapPublisher::~MapPublisher() { service_spinner_.stop(); }
 
 void MapPublisher::OnMapDelta(const MapDelta& delta) { publishing_.Push(delta); }
+
+void MapPublisher::ServeMap() { publishing_.Push(std::nullopt); }
+
+void MapPublisher::AdvertiseMap() {
+  get_map_server_ = service_handle_.advertiseService("get_map", &MapPublisher::GetMap, this);
+}
 
 void MapPublisher::OnVerdict(const PhotoVerdict& verdict,
                              const PhotoBytes& bytes,

@@ -33,6 +33,10 @@ class MapPublisher {
 
   void OnMapDelta(const MapDelta& delta);
 
+  // Offers get_map from now on, with the deltas handed over so far: who asks while a stored map is
+  // still being read would take it for an empty one.
+  void ServeMap();
+
   // `bytes` is the photo; the picture of the newest one is drawn.
   void OnVerdict(const PhotoVerdict& verdict, const PhotoBytes& bytes, const PhotoCounts& counts);
 
@@ -45,6 +49,7 @@ class MapPublisher {
   struct Wake {};
 
   void PublishDelta(const MapDelta& delta);
+  void AdvertiseMap();
   void Draw();
   void DrawAnnotation(const Annotation& annotation);
   void DrawMap();
@@ -69,6 +74,7 @@ class MapPublisher {
   std::optional<Eigen::Vector3d> focus_in_map_;
   std::optional<Annotation> annotation_;
 
+  ros::NodeHandle service_handle_;
   ros::CallbackQueue service_queue_;
   ros::ServiceServer get_map_server_;
   ros::AsyncSpinner service_spinner_;
@@ -76,7 +82,7 @@ class MapPublisher {
   ros::WallTimer tf_timer_;
 
   Stage<Wake> drawing_;
-  Stage<MapDelta> publishing_;
+  Stage<std::optional<MapDelta>> publishing_;  // Nothing: AdvertiseMap.
 };
 
 }  // namespace plumb::ros_adapter

@@ -5,11 +5,13 @@
 #include <plumbline/PhotoVerdict.h>
 #include <plumbline/StoredPhotos.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 #include <utility>
 
 #include "ros/camera_conversion.h"
+#include "ros/constraints_conversion.h"
 #include "ros/run_node.h"
 #include "ros/verdict_conversion.h"
 
@@ -61,6 +63,8 @@ MapperRos::MapperRos(const ros::NodeHandle& handle, const MapperRosOptions& opti
     PublishStored({});
   }
   photo_subscriber_ = handle_.subscribe("photo", kPhotoQueue, &MapperRos::OnPhoto, this);
+  control_points_subscriber_ =
+      handle_.subscribe("control_points", 1, &MapperRos::OnControlPoints, this);
   diagnostics_.setHardwareID("mapper");
   diagnostics_.add("mapper", this, &MapperRos::Diagnose);
   timer_ = handle_.createWallTimer(ros::WallDuration(kTimerPeriod_s),
@@ -81,6 +85,8 @@ void MapperRos::Start(const Camera& camera) {
   publisher_ = std::make_unique<MapPublisher>(handle_, options_, camera);
   auto live = std::make_unique<LiveMapper>(
       options_.mapper, options_.session_folder, camera, options_.max_queue, MakeOutput());
+  publisher_->ServeMap();
+  if (constraints_) live->SetConstraints(*std::exchange(constraints_, std::nullopt));
   const std::lock_guard<std::mutex> lock(mutex_);
   for (const auto& [photo, verdict] : live->verdicts()) status_of_photo_[photo] = verdict.status;
   live_ = std::move(live);
@@ -155,6 +161,26 @@ void MapperRos::RefuseOtherCamera(const WirePhoto& photo) {
   verdict.hint =
       "It came with another camera calibration than this session's; begin a new session.";
   PublishVerdict(verdict, nullptr);
+}
+
+void MapperRos::OnControlPoints(const plumbline::ControlPoints& msg) {
+  std::optional<BundleConstraints> constraints = FromControlPointsMsg(msg);
+  if (!constraints) {
+    ROS_ERROR_THROTTLE(5.0, "message on `control_points` dropped: its numbers make no sense");
+    return;
+  }
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    num_control_points_ = static_cast<std::size_t>(std::count_if(
+        constraints->markers.begin(), constraints->markers.end(), [](const MarkerTrack& track) {
+          return track.survey.has_value();
+        }));
+  }
+  if (live_) {
+    live_->SetConstraints(std::move(*constraints));
+  } else {
+    constraints_ = std::move(constraints);
+  }
 }
 
 void MapperRos::OnTimer() {
@@ -244,6 +270,7 @@ void MapperRos::Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.add("photos waiting", counts.num_waiting);
   status.add("photos refused", counts.num_refused);
   status.add("photos dropped and to be sent again", num_dropped_);
+  status.add("control points of the bundle", num_control_points_);
   if (!latency_.IsEmpty()) {
     status.add("latency last [s]", latency_.Last_s());
     status.add("latency median [s]", latency_.Quantile_s(0.5));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
+#include <plumbline/ControlPoints.h>
 #include <plumbline/Photo.h>
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
@@ -42,6 +43,7 @@ class MapperRos {
   void OnPhoto(const plumbline::Photo& msg);
   void OnTimer();
 
+  void OnControlPoints(const plumbline::ControlPoints& msg);
   bool OnFinish(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   std::string ReportNoPhotos() const;
   void RefuseOtherCamera(const WirePhoto& photo);
@@ -57,6 +59,7 @@ class MapperRos {
   ros::Publisher verdict_publisher_;
   ros::Publisher stored_publisher_;
   ros::Subscriber photo_subscriber_;
+  ros::Subscriber control_points_subscriber_;
   ros::WallTimer timer_;
   diagnostic_updater::Updater diagnostics_;
 
@@ -64,10 +67,12 @@ class MapperRos {
   std::map<PhotoId, VerdictStatus> status_of_photo_;
   Latency latency_;
   std::size_t num_dropped_ = 0;
+  std::size_t num_control_points_ = 0;  // Those that hold the bundles.
   Trouble storage_trouble_;
 
   std::unique_ptr<MapPublisher> publisher_;
   std::unique_ptr<LiveMapper> live_;
+  std::optional<BundleConstraints> constraints_;  // Heard before there is a mapper.
 
   ros::CallbackQueue service_queue_;
   ros::ServiceServer finish_server_;

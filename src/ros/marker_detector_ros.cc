@@ -3,6 +3,7 @@
 #include "ros/marker_detector_ros.h"
 
 #include <cv_bridge/cv_bridge.h>
+#include <plumbline/SearchedPhotos.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/image_encodings.h>
 #include <sys/resource.h>
@@ -18,6 +19,7 @@ namespace plumb::ros_adapter {
 namespace {
 
 constexpr double kTimerPeriod_s = 0.5;
+constexpr double kComplainEvery_s = 60.0;
 
 // As camera_ingest's. Messages are taken from here at once: the stage's queue is the one that
 // counts.
@@ -70,14 +72,67 @@ MarkerDetectorRos::MarkerDetectorRos(const ros::NodeHandle& handle,
   detections_publisher_ =
       own.advertise<plumbline::MarkerDetectionArray>("marker_detections", kDetectionsQueue);
   annotated_publisher_ = own.advertise<sensor_msgs::Image>("annotated_markers", 1, /*latch=*/true);
+  searched_publisher_ =
+      own.advertise<plumbline::SearchedPhotos>("searched_photos", 1, /*latch=*/true);
+  if (!options_.session_folder.empty()) GoOnWithSession();
   search_ = std::make_unique<Stage<ArrivedPhoto>>(
       static_cast<std::size_t>(options_.max_queue),
       [this](const ArrivedPhoto& arrived) { Search(arrived); });
+  detections_server_ = own.advertiseService(
+      "get_marker_detections", &MarkerDetectorRos::OnGetMarkerDetections, this);
   photo_subscriber_ = own.subscribe("photo", kPhotoQueue, &MarkerDetectorRos::OnPhoto, this);
   diagnostics_.setHardwareID("marker_detector");
   diagnostics_.add("markers", this, &MarkerDetectorRos::Diagnose);
-  timer_ = own.createWallTimer(ros::WallDuration(kTimerPeriod_s),
-                               [this](const auto&) { diagnostics_.update(); });
+  timer_ = own.createWallTimer(ros::WallDuration(kTimerPeriod_s), [this](const auto&) {
+    if (unsearched_) SearchUnsearched();
+    diagnostics_.update();
+  });
+}
+
+void MarkerDetectorRos::GoOnWithSession() {
+  store_ = std::make_unique<AnswerStore>(options_.session_folder);
+  unsearched_ = std::make_unique<UnsearchedPhotos>(options_.session_folder);
+  for (plumbline::MarkerDetectionArray& answer : store_->Load()) {
+    num_markers_ += answer.detections.size();
+    answers_[answer.sequence] = std::move(answer);
+  }
+  if (answers_.empty()) return;
+  ROS_INFO("going on after %zu photos with %zu markers", answers_.size(), num_markers_);
+  PublishSearched();
+}
+
+// One at a time, when nothing waits: what comes over the wire goes before.
+void MarkerDetectorRos::SearchUnsearched() {
+  if (search_->counters().queue_depth > 0) return;
+  try {
+    const std::optional<plumbline::Photo> photo =
+        unsearched_->Next([this](std::uint32_t sequence) { return IsAnsweredOrInWork(sequence); });
+    if (photo) OnPhoto(*photo);
+  } catch (const std::runtime_error& error) {
+    ROS_ERROR_THROTTLE(kComplainEvery_s, "%s", error.what());
+  }
+}
+
+bool MarkerDetectorRos::IsAnsweredOrInWork(std::uint32_t sequence) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return answers_.count(sequence) != 0 || in_work_.count(sequence) != 0;
+}
+
+bool MarkerDetectorRos::OnGetMarkerDetections(plumbline::GetMarkerDetections::Request&,
+                                              plumbline::GetMarkerDetections::Response& response) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (const auto& [sequence, answer] : answers_) response.answers.push_back(answer);
+  return true;
+}
+
+void MarkerDetectorRos::PublishSearched() {
+  plumbline::SearchedPhotos msg;
+  msg.header.stamp = ros::Time::now();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const auto& [sequence, answer] : answers_) msg.sequences.push_back(sequence);
+  }
+  searched_publisher_.publish(msg);
 }
 
 void MarkerDetectorRos::OnPhoto(const plumbline::Photo& msg) {
@@ -127,6 +182,8 @@ void MarkerDetectorRos::Search(const ArrivedPhoto& arrived) {
   FillIn(search, arrived.since_arrival.Seconds(), &answer);
   Keep(answer);  // Before anybody hears it: who asks again then gets it again.
   detections_publisher_.publish(answer);
+  PublishSearched();
+  if (store_) Store(answer);
   Log(answer);
   Show(search, answer);
 }
@@ -141,6 +198,23 @@ void MarkerDetectorRos::Keep(const plumbline::MarkerDetectionArray& answer) {
   if (search_->counters().queue_depth == 0) full_queue_.Clear();
 }
 
+// What a full disk does not take is searched again after a restart.
+void MarkerDetectorRos::Store(const plumbline::MarkerDetectionArray& answer) {
+  std::string trouble;
+  try {
+    store_->Save(answer);
+  } catch (const std::runtime_error& error) {
+    trouble = std::string("the markers are not saved: ") + error.what() +
+              ". They are in use all the same, and searched for again after a restart";
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (trouble.empty()) {
+    store_trouble_.Clear();
+  } else if (store_trouble_.Set(trouble, 0, SteadySeconds())) {
+    ROS_ERROR("%s", trouble.c_str());
+  }
+}
+
 void MarkerDetectorRos::Show(const MarkerSearch& search,
                              const plumbline::MarkerDetectionArray& answer) {
   const cv::Mat picture = DrawAnnotatedMarkers(search, answer.name, options_.annotated_width_px);
@@ -152,7 +226,9 @@ void MarkerDetectorRos::Diagnose(diagnostic_updater::DiagnosticStatusWrapper& st
   using diagnostic_msgs::DiagnosticStatus;
   const std::lock_guard<std::mutex> lock(mutex_);
   const StageCounters counters = search_->counters();
-  if (!full_queue_.text().empty()) {
+  if (!store_trouble_.text().empty()) {
+    status.summary(DiagnosticStatus::ERROR, store_trouble_.text());
+  } else if (!full_queue_.text().empty()) {
     status.summary(DiagnosticStatus::WARN, full_queue_.text());
   } else {
     status.summary(DiagnosticStatus::OK, counters.accepted == 0 ? "no photo yet" : "ok");

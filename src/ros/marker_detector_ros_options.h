@@ -10,6 +10,11 @@
 namespace plumb::ros_adapter {
 
 struct MarkerDetectorRosOptions {
+  // Where the flight is kept: the answers go into markers.db, and photos that were taken up there
+  // but not searched, after a crash or a full queue, are searched when there is time. Empty: what
+  // is missed stays missed.
+  std::string session_folder;
+
   // Photos that wait to be searched; one of 16 megapixels takes some 6 MB here. What comes when it
   // is full is answered with a reason.
   int max_queue = 32;
@@ -35,6 +40,7 @@ struct MarkerDetectorRosOptions {
 // The only list of the parameter names.
 template <typename Visitor>
 void VisitFields(MarkerDetectorRosOptions& options, Visitor&& visit) {
+  visit("session_folder", options.session_folder);
   visit("max_queue", options.max_queue);
   visit("niceness", options.niceness);
   visit("annotated_width_px", options.annotated_width_px);

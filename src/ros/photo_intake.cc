@@ -99,33 +99,58 @@ void AppendDurably(const std::string& path, const std::string& text) {
   if (error != 0) FailToWrite(path, error);
 }
 
+std::string LedgerPath(const std::string& session_folder) {
+  return session_folder + "/photos.jsonl";
+}
+
+struct Ledger {
+  std::vector<TakenPhoto> photos;
+  std::size_t whole_size = 0;  // Of the lines that are whole [bytes].
+  std::size_t size = 0;
+};
+
+Ledger ReadLedgerFile(const std::string& path) {
+  Ledger ledger;
+  if (!std::filesystem::exists(path)) return ledger;
+  const std::vector<std::uint8_t> bytes = ReadFileBytes(path);
+  const std::string text(bytes.begin(), bytes.end());
+  ledger.size = text.size();
+  for (int line_number = 1; ledger.whole_size < text.size(); ++line_number) {
+    const std::size_t end = text.find('\n', ledger.whole_size);
+    if (end == std::string::npos) break;
+    try {
+      const std::string line = text.substr(ledger.whole_size, end - ledger.whole_size);
+      ledger.photos.push_back(FromJson(json::parse(line)));
+    } catch (const json::exception& error) {
+      throw std::runtime_error(path + ", line " + std::to_string(line_number) +
+                               ", makes no sense: " + error.what());
+    }
+    ledger.whole_size = end + 1;
+  }
+  return ledger;
+}
+
 }  // namespace
 
+std::vector<TakenPhoto> ReadPhotoLedger(const std::string& session_folder) {
+  return ReadLedgerFile(LedgerPath(session_folder)).photos;
+}
+
 PhotoIntake::PhotoIntake(const std::string& session_folder)
-    : ledger_path_(session_folder + "/photos.jsonl"), folder_(session_folder + "/photos") {
+    : ledger_path_(LedgerPath(session_folder)), folder_(session_folder + "/photos") {
   folder_.Prepare();
   ReadLedger();
 }
 
 void PhotoIntake::ReadLedger() {
-  if (!std::filesystem::exists(ledger_path_)) return;
-  const std::vector<std::uint8_t> bytes = ReadFileBytes(ledger_path_);
-  const std::string text(bytes.begin(), bytes.end());
-  std::size_t begin = 0;
-  for (int line_number = 1; begin < text.size(); ++line_number) {
-    const std::size_t end = text.find('\n', begin);
-    if (end == std::string::npos) break;
-    try {
-      const TakenPhoto photo = FromJson(json::parse(text.substr(begin, end - begin)));
-      photos_[photo.sequence] = photo;
-      sequence_of_name_[photo.name] = photo.sequence;
-    } catch (const json::exception& error) {
-      throw std::runtime_error(ledger_path_ + ", line " + std::to_string(line_number) +
-                               ", makes no sense: " + error.what());
-    }
-    begin = end + 1;
+  const Ledger ledger = ReadLedgerFile(ledger_path_);
+  for (const TakenPhoto& photo : ledger.photos) {
+    photos_[photo.sequence] = photo;
+    sequence_of_name_[photo.name] = photo.sequence;
   }
-  if (begin < text.size()) std::filesystem::resize_file(ledger_path_, begin);
+  if (ledger.whole_size < ledger.size) {
+    std::filesystem::resize_file(ledger_path_, ledger.whole_size);
+  }
 }
 
 std::optional<TakenPhoto> PhotoIntake::TakeFile(const std::string& folder,

@@ -32,6 +32,11 @@ struct TakenPhoto {
   std::optional<GeodeticPosition> position;
 };
 
+// What SESSION/photos.jsonl says, by sequence, even while it is being written: a last line that is
+// not whole does not count. Nothing if there is no such file. Throws std::runtime_error naming the
+// file if it cannot be read or a line makes no sense.
+std::vector<TakenPhoto> ReadPhotoLedger(const std::string& session_folder);
+
 // Keeps the original bytes of each photo in SESSION/photos and one line about it in
 // SESSION/photos.jsonl, so that the numbering goes on after a restart and nothing is taken up
 // twice. Thread-safe; one process a session.

@@ -94,6 +94,11 @@ void Mapper::Impl::Finish() {
   FinalBundle();
 }
 
+BundleProblem Mapper::Impl::GlobalBundle() const {
+  return MakeGlobalBundle(
+      options_.bundle, map_, camera_.lens(), MovedWithMap(constraints_, camera_, map_));
+}
+
 // Takes in a background bundle when it is due and starts one when the map has grown.
 void Mapper::Impl::ManageBackground() {
   const bool is_due =
@@ -112,7 +117,7 @@ void Mapper::Impl::ManageBackground() {
   if (background_.IsRunning() || is_local_enough || !has_grown) return;
   num_views_at_last_bundle_ = num_views;
   background_start_ = num_photos_;
-  background_.Start(MakeGlobalBundle(options_.bundle, map_, camera_.lens(), constraints_));
+  background_.Start(GlobalBundle());
 }
 
 void Mapper::Impl::TakeBackground() {
@@ -144,7 +149,7 @@ void Mapper::Impl::FinalBundle() {
       ExpandMap(options, camera_, matches_, records_, photo, &map_);
     }
     CompleteTracks(options, camera_, matches_, map_.LandmarkIds(), &map_);
-    BundleProblem problem = MakeGlobalBundle(options_.bundle, map_, camera_.lens(), constraints_);
+    BundleProblem problem = GlobalBundle();
     const BundleReport report = SolveBundle(options_.bundle,
                                             options_.bundle.max_global_iterations,
                                             options_.bundle.function_tolerance,

@@ -110,6 +110,7 @@ class Mapper::Impl {
   bool RetryAllPending();
 
   // The whole map (mapper.cc).
+  BundleProblem GlobalBundle() const;
   void ManageBackground();
   void TakeBackground();
   bool AdoptLens(const LensParameters<double>& lens);

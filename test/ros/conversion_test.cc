@@ -88,6 +88,12 @@ TEST(TransformMsg, RefusesNanAndNonUnitQuaternions) {
   EXPECT_FALSE(FromTransformMsg(msg));
 }
 
+TEST(VerdictMsg, ItsWordsAreThoseOfTheCore) {
+  EXPECT_EQ(plumbline::PhotoVerdict::ACCEPTED, ToString(VerdictStatus::kAccepted));
+  EXPECT_EQ(plumbline::PhotoVerdict::WAITING, ToString(VerdictStatus::kWaiting));
+  EXPECT_EQ(plumbline::PhotoVerdict::REFUSED, ToString(VerdictStatus::kRefused));
+}
+
 TEST(MapDeltaMsg, RoundTripKeepsAllToTheLastBit) {
   const MapDelta delta = MakeDelta();
   const auto back = FromMapDeltaMsg(MakeDeltaMsg());

@@ -14,6 +14,7 @@
 #include "plumbline/common/atomic_file.h"
 #include "ros/camera_conversion.h"
 #include "ros/photo_conversion.h"
+#include "ros/position_conversion.h"
 #include "test/support/synthetic_scene.h"
 
 namespace plumb::ros_adapter {
@@ -44,8 +45,8 @@ TEST_F(FlightBagTest, HoldsThePhotosAsCameraIngestSendsThem) {
   WriteFlightBag(root_ + "/flight.bag", camera_, photos_);
   rosbag::Bag bag(root_ + "/flight.bag");
   std::size_t num_messages = 0;
-  for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
-    EXPECT_EQ(message.getTopic(), "/plumbline/photo");
+  for (const rosbag::MessageInstance& message :
+       rosbag::View(bag, rosbag::TopicQuery("/plumbline/photo"))) {
     const auto msg = message.instantiate<plumbline::Photo>();
     ASSERT_TRUE(msg);
     const std::optional<WirePhoto> photo = FromPhotoMsg(*msg);
@@ -59,6 +60,24 @@ TEST_F(FlightBagTest, HoldsThePhotosAsCameraIngestSendsThem) {
     EXPECT_TRUE(IsSameCamera(FromCameraInfoMsg(msg->camera_info, "bag"), camera_));
   }
   EXPECT_EQ(num_messages, photos_.size());
+}
+
+TEST_F(FlightBagTest, SaysBeforeThemWhereTheyWereTaken) {
+  photos_[0].position.reset();
+  WriteFlightBag(root_ + "/flight.bag", camera_, photos_);
+  rosbag::Bag bag(root_ + "/flight.bag");
+  rosbag::View all(bag);
+  EXPECT_EQ(all.size(), 3U);
+  const rosbag::MessageInstance first = *all.begin();
+  EXPECT_EQ(first.getTopic(), "/plumbline/photo_positions");
+  EXPECT_TRUE(first.isLatching());
+  const auto msg = first.instantiate<plumbline::PhotoPositions>();
+  ASSERT_TRUE(msg);
+  const auto positions = FromPhotoPositionsMsg(*msg);
+  ASSERT_TRUE(positions && positions->camera);
+  EXPECT_TRUE(IsSameCamera(*positions->camera, camera_));
+  ASSERT_EQ(positions->position_of_photo.size(), 1U);
+  EXPECT_EQ(positions->position_of_photo.at(PhotoId{2}).alt_m, 420.0);
 }
 
 TEST_F(FlightBagTest, IsTheSameEachTime) {

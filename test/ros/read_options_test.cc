@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "ros/camera_ingest_options.h"
+#include "ros/georeferencer_ros_options.h"
 #include "ros/mapper_ros_options.h"
 
 namespace plumb::ros_adapter {
@@ -152,6 +153,28 @@ TEST(MapperRosOptions, NamesProblemsOfNestedOptionsByTheirPath) {
   EXPECT_THAT(options.Problems(),
               UnorderedElementsAre(HasSubstr("mapper.features.min_contrast"),
                                    HasSubstr("mapper.max_retries_per_photo")));
+}
+
+TEST(GeoreferencerRosOptions, DefaultsNeedNothing) {
+  EXPECT_THAT(GeoreferencerRosOptions().Problems(), IsEmpty());
+}
+
+TEST(GeoreferencerRosOptions, NamesWhatIsWrong) {
+  setenv("PLUMBLINE_CALLED_FROM", "/home/pilot", 1);
+  GeoreferencerRosOptions options;
+  options.survey_file = "survey.csv";
+  options.survey_heights = "mean sea level";
+  options.enu_frame_id = "map";
+  options.earth_frame_id = "map";
+  options.residual_magnification = 0.0;
+  options.georeferencer.max_error_px = 0.0;
+  EXPECT_THAT(options.Problems(),
+              ElementsAre(AllOf(HasSubstr("survey_file"), HasSubstr("/home/pilot/survey.csv")),
+                          HasSubstr("survey_heights"),
+                          HasSubstr("enu_frame_id"),
+                          HasSubstr("earth_frame_id"),
+                          HasSubstr("residual_magnification"),
+                          HasSubstr("georeferencer.max_error_px")));
 }
 
 }  // namespace

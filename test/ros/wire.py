@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import tempfile
 import threading
+import time
 import unittest
 
 import rospy
@@ -40,6 +41,15 @@ def shared_data(scene):
     if not folder.is_dir():
         raise unittest.SkipTest(f"no shared data: {folder} is absent; set PLUMBLINE_DATA")
     return folder
+
+
+def wait_until(condition, what):
+    """For what no message tells."""
+    deadline_s = time.monotonic() + DEADLINE_S
+    while not condition():
+        if time.monotonic() > deadline_s:
+            raise AssertionError(f"in {DEADLINE_S} s there was not {what}")
+        time.sleep(0.02)
 
 
 class Heard:

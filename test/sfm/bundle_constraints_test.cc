@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 
+#include "plumbline/geometry/similarity3.h"
 #include "plumbline/sfm/bundle_problem.h"
 #include "test/sfm/scene_photos.h"
 
@@ -171,6 +172,76 @@ TEST_F(BundleConstraintsTest, LeavesOutMarkersThatSayNothing) {
   ASSERT_EQ(problem.markers.size(), 1U);
   EXPECT_EQ(problem.markers[0].marker_id, 3);
   for (const BundleSighting& sighting : problem.sightings) EXPECT_EQ(sighting.marker_idx, 0U);
+}
+
+// As an unconstrained bundle, or a map that was begun anew, may leave it.
+Similarity3 AnotherGauge() {
+  return {1.7,
+          Eigen::Quaterniond(Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, 2, 3).normalized())),
+          {5.0, -3.0, 2.0}};
+}
+
+TEST_F(BundleConstraintsTest, FollowAMapThatMoved) {
+  const BundleConstraints before = ControlPoints();
+  const Similarity3 now_from_before = AnotherGauge();
+  for (const PhotoId photo : {PhotoId{0}, {1}, {2}, {3}, {4}, {5}}) {
+    map_.MoveView(photo, TransformCamera(now_from_before, map_.view(photo).cam_from_map));
+  }
+  const BundleConstraints now = MovedWithMap(before, scene_.camera, map_);
+  ASSERT_EQ(now.markers.size(), before.markers.size());
+  for (std::size_t i = 0; i < now.markers.size(); ++i) {
+    const Eigen::Vector3d expected = now_from_before * before.markers[i].position_in_map;
+    EXPECT_LT((now.markers[i].position_in_map - expected).norm(), 1e-6);
+    EXPECT_LT((now.markers[i].survey->position_in_map - expected).norm(), 1e-6);
+    EXPECT_NEAR(now.markers[i].survey->sigma, 1.7 * kSurveySigma_m, 1e-9);
+    EXPECT_EQ(now.markers[i].sightings.size(), before.markers[i].sightings.size());
+  }
+}
+
+TEST_F(BundleConstraintsTest, StayWhereTheyAreWithAMapThatStays) {
+  BundleConstraints before = ControlPoints();
+  before.markers[1].survey->position_in_map.z() += 0.01;  // What the survey says is not changed.
+  before.centers.push_back({{2}, {Eigen::Vector3d(1, 2, 3), 0.5}});
+  const BundleConstraints now = MovedWithMap(before, scene_.camera, map_);
+  for (std::size_t i = 0; i < now.markers.size(); ++i) {
+    EXPECT_LT(
+        (now.markers[i].survey->position_in_map - before.markers[i].survey->position_in_map).norm(),
+        1e-6);
+  }
+  EXPECT_LT((now.centers[0].center.position_in_map - Eigen::Vector3d(1, 2, 3)).norm(), 1e-6);
+}
+
+TEST_F(BundleConstraintsTest, OneMarkerThatMovedAgainstTheOthersDoesNotTurnThem) {
+  BundleConstraints before = ControlPoints();
+  before.markers.push_back(Marker(4, {0, 0, 0}));
+  before.markers.back().position_in_map.x() += 1.0;
+  const BundleConstraints now = MovedWithMap(before, scene_.camera, map_);
+  EXPECT_LT((now.markers[4].position_in_map - Eigen::Vector3d::Zero()).norm(), 1e-6);
+  EXPECT_LT(
+      (now.markers[0].survey->position_in_map - before.markers[0].survey->position_in_map).norm(),
+      1e-6);
+}
+
+TEST_F(BundleConstraintsTest, SurveysThatCannotFollowAreLeftOut) {
+  BundleConstraints before = ControlPoints();
+  before.markers.resize(2);
+  const BundleConstraints now = MovedWithMap(before, scene_.camera, map_);
+  ASSERT_EQ(now.markers.size(), 2U);
+  for (const MarkerTrack& track : now.markers) EXPECT_FALSE(track.survey);
+  EXPECT_TRUE(MovedWithMap({}, scene_.camera, map_).markers.empty());
+}
+
+TEST_F(BundleConstraintsTest, AMarkerSeenByOneViewGoesWithTheOthers) {
+  BundleConstraints before = ControlPoints();
+  before.markers[2].sightings.resize(1);
+  const Similarity3 now_from_before = AnotherGauge();
+  for (const PhotoId photo : {PhotoId{0}, {1}, {2}, {3}, {4}, {5}}) {
+    map_.MoveView(photo, TransformCamera(now_from_before, map_.view(photo).cam_from_map));
+  }
+  const BundleConstraints now = MovedWithMap(before, scene_.camera, map_);
+  const Eigen::Vector3d expected = now_from_before * before.markers[2].position_in_map;
+  EXPECT_LT((now.markers[2].position_in_map - expected).norm(), 1e-6);
+  EXPECT_LT((now.markers[2].survey->position_in_map - expected).norm(), 1e-6);
 }
 
 class MultiScaleTest : public BundleConstraintsTest {

@@ -28,8 +28,8 @@ struct GpsPhoto;
 
 // Puts the map on the earth while it grows. It hears, in any order, the markers found in each
 // photo, the position each was taken at, and the map's deltas; only located photos count. Update
-// then triangulates the targets whose photos were added or moved, and computes the rest anew, which
-// takes a few milliseconds. Not thread-safe.
+// then triangulates the targets whose photos were added or moved, and computes the rest anew: some
+// ten milliseconds of one core at 500 photos (georeference_benchmark). Not thread-safe.
 class Georeferencer {
  public:
   // `camera` is as the session holds it; a refined lens comes by the deltas. Throws

@@ -10,6 +10,9 @@
 
 namespace plumb {
 
+class Camera;
+class Map;
+
 // A position measured by other means, brought into the map.
 struct MeasuredPosition {
   Eigen::Vector3d position_in_map = Eigen::Vector3d::Zero();
@@ -42,5 +45,13 @@ struct BundleConstraints {
   std::vector<MarkerTrack> markers;
   std::vector<CenterPrior> centers;
 };
+
+// The same for the map as it is now: each marker is triangulated anew from the views that show it,
+// and what was measured goes along with the similarity that takes the markers from where they were
+// to where they are. Where three markers do not tell it, their surveys are left out: they could not
+// hold the map, and may lie anywhere in it.
+BundleConstraints MovedWithMap(const BundleConstraints& constraints,
+                               const Camera& camera,
+                               const Map& map);
 
 }  // namespace plumb

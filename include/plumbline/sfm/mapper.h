@@ -64,7 +64,7 @@ class Mapper {
   void Finish();
 
   // Markers and measured positions for the global bundles from now on, in place of those given
-  // before. They are in the map as it is: give them anew when the map has moved against them.
+  // before. When the map moves they go along (MovedWithMap). Nothing waits for them.
   void SetConstraints(BundleConstraints constraints);
 
   // Goes on from a stored session: its photos, the latest verdicts and the map.

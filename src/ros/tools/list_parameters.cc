@@ -6,6 +6,7 @@
 #include "plumbline/map/run_report.h"
 #include "ros/calibrator_ros_options.h"
 #include "ros/camera_ingest_options.h"
+#include "ros/georeferencer_ros_options.h"
 #include "ros/mapper_ros_options.h"
 #include "ros/marker_detector_ros_options.h"
 #include "ros/mesher_ros_options.h"
@@ -14,6 +15,7 @@ int main() {
   nlohmann::ordered_json nodes;
   nodes["calibrator"] = plumb::OptionsToJson(plumb::ros_adapter::CalibratorRosOptions());
   nodes["camera_ingest"] = plumb::OptionsToJson(plumb::ros_adapter::CameraIngestOptions());
+  nodes["georeferencer"] = plumb::OptionsToJson(plumb::ros_adapter::GeoreferencerRosOptions());
   nodes["mapper"] = plumb::OptionsToJson(plumb::ros_adapter::MapperRosOptions());
   nodes["marker_detector"] = plumb::OptionsToJson(plumb::ros_adapter::MarkerDetectorRosOptions());
   nodes["mesher"] = plumb::OptionsToJson(plumb::ros_adapter::MesherRosOptions());

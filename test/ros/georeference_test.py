@@ -1,0 +1,299 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: 2026 The Plumbline authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""flight.launch with photos of a simulated facade with surveyed targets, placed on earth in flight."""
+
+import csv
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import tempfile
+import unittest
+from xmlrpc.client import ServerProxy
+
+import numpy
+import rosgraph
+import rospy
+import rostest
+from plumbline.msg import (ControlPoints, Georeference, MapDelta, MarkerDetection,
+                           MarkerDetectionArray, PhotoPositions, PhotoVerdict)
+from plumbline.srv import GetMarkerDetections, LoadSurvey
+from std_msgs.msg import Float64
+from tf2_msgs.msg import TFMessage
+from visualization_msgs.msg import MarkerArray
+
+import wire
+
+SCENARIO = """\
+description: A few small photos of a wall with nine targets
+seed: 1
+samples_per_axis: 1
+facade: {width_m: 9.0, height_m: 10.0, depth_m: 5.0, num_storeys: 2, num_doors: 0, num_downpipes: 0, num_targets: 9}
+lens: {width_px: 1500, height_px: 1000}
+survey: {check_share: 0.25}
+flight:
+  legs:
+    - row: 5m
+      distance_m: 5.0
+      x_min_m: 0.0
+      x_max_m: 9.0
+      z_min_m: 0.5
+      z_max_m: 10.0
+      side_overlap: 0.7
+      num_photos: 12
+"""
+NUM_PHOTOS = 12
+
+NAN = float("nan")
+
+
+def kill_node(name):
+    """Ends a node by SIGKILL, as a crash would."""
+    master = rosgraph.Master("/georeference_test")
+    _, _, process_id = ServerProxy(master.lookupNode(name)).getPid("/georeference_test")
+    os.kill(process_id, signal.SIGKILL)
+
+
+def states(georeference):
+    return {target.id: target.state for target in georeference.targets}
+
+
+def residuals(georeference):
+    """By target [mm]."""
+    return {target.id: target.residual_mm for target in georeference.targets
+            if target.state in ("good", "wrong")}
+
+
+def codes(georeference):
+    return {finding.code for finding in georeference.findings}
+
+
+class GeoreferenceTest(wire.FolderTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.simulated = pathlib.Path(tempfile.mkdtemp(prefix="plumbline_"))
+        (cls.simulated / "scenario.yaml").write_text(SCENARIO)
+        cls.world = cls.simulated / "flight"
+        subprocess.run(["rosrun", "plumbline", "plumbline", "simulate", "--no-bag", "--scenario",
+                        str(cls.simulated / "scenario.yaml"), "--output", str(cls.world)],
+                       check=True, stdout=subprocess.DEVNULL)
+        cls.photos = sorted((cls.world / "photos").iterdir())
+        with open(cls.world / "survey.csv", newline="") as file:
+            cls.survey = list(csv.DictReader(file))
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.simulated, ignore_errors=True)
+
+    def setUp(self):
+        super().setUp()
+        self.camera = self.world / "camera.yaml"
+        self.verdicts = self.hear("photo_verdict", PhotoVerdict)
+        self.georeferences = self.hear("georeference", Georeference)
+
+    def hear(self, topic, message_type):
+        heard = wire.Heard(f"/plumbline/{topic}", message_type)
+        self.addCleanup(heard.close)
+        return heard
+
+    def fly(self, **arguments):
+        process = subprocess.Popen(
+            ["roslaunch", "--no-summary", "plumbline", "flight.launch", "rviz:=false",
+             f"photos:={self.card}", f"session:={self.session}", f"camera:={self.camera}"] +
+            [f"{key}:={value}" for key, value in arguments.items()])
+        self.addCleanup(self.stop, process)
+        return process
+
+    @staticmethod
+    def stop(process):
+        if process.poll() is None:
+            process.send_signal(signal.SIGINT)
+            process.wait(wire.DEADLINE_S)
+
+    def leave(self, photos):
+        for photo in photos:
+            shutil.copy(photo, self.folder)
+            (self.folder / photo.name).rename(self.card / photo.name)
+
+    def wait_for_verdicts(self, number):
+        self.verdicts.wait(lambda heard: len({v.name for v in heard}) >= number,
+                           f"verdicts of {number} photos")
+
+    def wait_for(self, is_it, what):
+        """The last georeference of which it holds, once there is one."""
+        heard = self.georeferences.wait(lambda all_of_them: any(map(is_it, all_of_them)), what)
+        return [georeference for georeference in heard if is_it(georeference)][-1]
+
+    def wait_for_all_targets(self):
+        return self.wait_for(
+            lambda g: g.source == "targets" and g.num_control + g.num_check == len(self.survey),
+            "all targets")
+
+    def write_survey(self, name, rows):
+        path = self.folder / name
+        with open(path, "w", newline="") as file:
+            writer = csv.DictWriter(file, list(self.survey[0]))
+            writer.writeheader()
+            writer.writerows(rows)
+        return path
+
+    def load(self, path, **words):
+        rospy.wait_for_service("/plumbline/load_survey", wire.DEADLINE_S)
+        return rospy.ServiceProxy("/plumbline/load_survey", LoadSurvey)(path=str(path), **words)
+
+    def swapped(self):
+        rows = [dict(row) for row in self.survey]
+        control = [row for row in rows if row["role"] == "control"]
+        control[1]["id"], control[4]["id"] = control[4]["id"], control[1]["id"]
+        return self.write_survey("swapped.csv", rows), {int(control[1]["id"]),
+                                                        int(control[4]["id"])}
+
+    def load_on_earth(self):
+        """The same targets in Austria, where no photo was taken."""
+        statics = wire.Heard("/tf_static", TFMessage)
+        self.addCleanup(statics.close)
+        rows = [{**row, "x_m": float(row["x_m"]) - 68000.0, "y_m": float(row["y_m"]) + 212000.0}
+                for row in self.survey]
+        path = self.write_survey("austria.csv", rows)
+        answer = self.load(path, crs="EPSG:31256", heights="ellipsoidal")
+        self.assertTrue(answer.success, answer.message)
+        placed = self.wait_for(lambda g: g.survey == str(path) and g.is_on_earth, "Austria")
+        self.assertEqual(placed.source, "targets")
+        self.assertIn("gps_disagrees", codes(placed))
+        heard = statics.wait(len, "earth to enu")[-1].transforms[0]
+        self.assertEqual((heard.header.frame_id, heard.child_frame_id), ("earth", "enu"))
+        self.assertEqual(heard.transform, placed.earth_from_enu)
+        place = heard.transform.translation
+        self.assertAlmostEqual(numpy.hypot(place.x, place.y), 4.25e6, delta=5e4)
+
+    def test_a_flight_is_placed_while_it_is_flown_and_the_mapper_is_told(self):
+        scales = self.hear("metres_per_map_unit", Float64)
+        drawings = self.hear("targets", MarkerArray)
+        points = self.hear("control_points", ControlPoints)
+        transforms = wire.Heard("/tf", TFMessage)
+        self.addCleanup(transforms.close)
+        self.fly(survey=self.world / "survey.csv")
+        self.leave(self.photos)
+        self.wait_for_verdicts(NUM_PHOTOS)
+        placed = self.wait_for_all_targets()
+        for target in placed.targets:
+            self.assertLess(target.error_mm, 15.0)  # Photos of 7 mm a pixel, not yet bundled.
+        self.assertFalse(placed.is_coarse)
+        self.assertEqual(placed.survey, str(self.world / "survey.csv"))
+        self.assertGreater(placed.num_gps_photos, 3)
+
+        scale = scales.wait(lambda heard: any(s.data > 0.0 for s in heard), "the scale")[-1].data
+        self.assertAlmostEqual(scale, placed.metres_per_map_unit, delta=0.02 * scale)
+        drawing = drawings.wait(len, "the targets drawn")[-1]
+        self.assertEqual({marker.header.frame_id for marker in drawing.markers}, {"map"})
+        transforms.wait(
+            lambda heard: any((t.header.frame_id, t.child_frame_id) == ("enu", "map")
+                              for message in heard for t in message.transforms), "enu to map")
+        surveyed = points.wait(
+            lambda heard: any(sum(p.is_surveyed for p in message.points) == placed.num_control
+                              for message in heard), "the control points")[-1]
+        self.assertTrue(all(len(set(point.photos)) == len(point.photos) >= 2
+                            for point in surveyed.points))
+
+    def test_a_survey_is_replaced_in_flight_and_a_broken_one_stops_nothing(self):
+        broken = self.write_survey("broken.csv", self.survey)
+        broken.write_text(broken.read_text().replace(self.survey[2]["y_m"], "far away"))
+        flight = self.fly(survey=broken)
+        self.leave(self.photos[:5])
+        self.wait_for_verdicts(5)
+        bad = self.wait_for(lambda g: "bad_survey" in codes(g), "what is wrong with the survey")
+        self.assertIn("line 4", bad.findings[0].text)
+        self.assertEqual(bad.survey, "")
+
+        answer = self.load(self.world / "survey.csv")
+        self.assertTrue(answer.success, answer.message)
+        self.assertIn("control", answer.message)
+        self.wait_for(lambda g: g.source == "targets" and "bad_survey" not in codes(g), "targets")
+
+        for path, words in ((broken, "line 4"), (self.folder / "none.csv", "none.csv"),
+                            ("survey.csv", "absolute")):
+            answer = self.load(path)
+            self.assertFalse(answer.success)
+            self.assertIn(words, answer.message)
+            self.assertIn("stays in use", answer.message)
+        self.assertFalse(self.load(self.world / "survey.csv", crs="EPSG:1").success)
+        self.leave(self.photos[5:])
+        self.wait_for_verdicts(NUM_PHOTOS)
+        self.wait_for_all_targets()
+
+        path, ids = self.swapped()
+        self.assertTrue(self.load(path).success)
+        wrong = self.wait_for(lambda g: g.survey == str(path), "the other survey")
+        self.assertEqual({target for target, state in states(wrong).items() if state == "wrong"},
+                         ids)
+        self.assertIn("exchanged_targets", codes(wrong))
+
+        self.load_on_earth()
+        self.assertTrue(self.load("").success)
+        self.wait_for(lambda g: g.survey == "" and g.source == "gps" and g.is_coarse, "GPS alone")
+        self.assertIsNone(flight.poll())
+
+    def test_nodes_killed_in_flight_give_the_same(self):
+        self.fly(survey=self.folder / "not_yet.csv")
+        self.leave(self.photos[:4])
+        self.wait_for_verdicts(4)
+        self.assertTrue(self.load(self.world / "survey.csv").success)
+        kill_node("/plumbline/georeferencer")
+        kill_node("/plumbline/marker_detector")
+        self.leave(self.photos[4:])
+        self.wait_for_verdicts(NUM_PHOTOS)
+        before = self.wait_for_all_targets()
+        before = self.georeferences.all()[-1] if before else before
+
+        self.georeferences.close()
+        kill_node("/plumbline/georeferencer")
+        self.georeferences = self.hear("georeference", Georeference)
+        after = self.wait_for(lambda g: g.map_sequence >= before.map_sequence and
+                              states(g) == states(before), "the same after a restart")
+        self.assertEqual(after.survey, str(self.world / "survey.csv"))
+        if after.map_sequence == before.map_sequence:
+            for target, residual in residuals(before).items():
+                numpy.testing.assert_allclose(residuals(after)[target], residual, atol=1e-6)
+
+        kill_node("/plumbline/mapper")
+        self.georeferences.close()
+        self.georeferences = self.hear("georeference", Georeference)
+        rospy.wait_for_service("/plumbline/get_marker_detections", wire.DEADLINE_S)
+        detections = rospy.ServiceProxy("/plumbline/get_marker_detections", GetMarkerDetections)()
+        self.assertEqual([answer.sequence for answer in detections.answers],
+                         list(range(1, NUM_PHOTOS + 1)))
+        self.assertEqual({answer.reason for answer in detections.answers}, {""})
+
+    def test_nonsense_on_the_wire_changes_nothing(self):
+        flight = self.fly(survey=self.world / "survey.csv")
+        self.leave(self.photos)
+        self.wait_for_verdicts(NUM_PHOTOS)
+        self.wait_for_all_targets()
+        before = residuals(self.georeferences.all()[-1])
+
+        def publish(topic, *messages):
+            publisher = rospy.Publisher(f"/plumbline/{topic}", type(messages[0]), queue_size=10)
+            wire.wait_until(publisher.get_num_connections, f"a listener of {topic}")
+            for message in messages:
+                publisher.publish(message)
+        nan = MarkerDetection(id=1, center_px=[NAN, 1.0])
+        publish("marker_detections", MarkerDetectionArray(sequence=1, detections=[nan]),
+                MarkerDetectionArray(sequence=0), MarkerDetectionArray(sequence=2 ** 32 - 1),
+                MarkerDetectionArray(sequence=77, detections=[MarkerDetection(id=4000)]))
+        publish("photo_positions", PhotoPositions(sequences=[1]),
+                PhotoPositions(sequences=[1, 2], lats_deg=[NAN, 1e9], lons_deg=[0.0, 0.0],
+                               alts_ellipsoid_m=[0.0, 0.0]))
+        publish("map_delta", MapDelta(sequence=10 ** 6, lens=[NAN] * 12),
+                MapDelta(sequence=10 ** 6, landmarks_removed=[5], views_removed=[1]))
+        publish("control_points", ControlPoints())
+        self.assertTrue(self.load(self.world / "survey.csv").success)
+        for target, residual in residuals(self.wait_for_all_targets()).items():
+            numpy.testing.assert_allclose(residual, before[target], atol=1.0)
+        self.assertIsNone(flight.poll())
+
+
+if __name__ == "__main__":
+    rospy.init_node("georeference_test")
+    rostest.rosrun("plumbline", "georeference", GeoreferenceTest)
