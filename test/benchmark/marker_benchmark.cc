@@ -18,6 +18,7 @@
 #include "plumbline/marker/marker_detector.h"
 #include "test/benchmark/marker_kinds.h"
 #include "test/support/marker_scene.h"
+#include "test/support/photo_mosaic.h"
 #include "test/support/random.h"
 
 namespace plumb::test {
@@ -210,19 +211,6 @@ void MeasureMixed(int num_markers, const Camera& camera) {
     MeasurePhoto(kind, RenderScene(kind, scene, camera, photo + 1), &tally);
   }
   std::cout << Summary(kind, scene, tally).dump() << std::endl;
-}
-
-// The photo and its mirror images beside it: as sharp as itself.
-cv::Mat Mosaic(const cv::Mat& gray, const cv::Size& size) {
-  cv::Mat mosaic;
-  cv::copyMakeBorder(gray,
-                     mosaic,
-                     0,
-                     std::max(0, size.height - gray.rows),
-                     0,
-                     std::max(0, size.width - gray.cols),
-                     cv::BORDER_REFLECT);
-  return mosaic(cv::Rect(0, 0, size.width, size.height));
 }
 
 struct PhotoTally {
