@@ -1,27 +1,33 @@
 # SPDX-FileCopyrightText: 2026 The Plumbline authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Section: the marker detector on rendered markers with known truth, beside ArUco and apriltag, and on
-photos without markers.
+"""Section: the marker detector on rendered markers with known truth, beside ArUco and apriltag, on
+photos without markers, and on the control points of a simulated flight.
 
 The figures are those of test/benchmark/marker_benchmark.cc. Diameters are those of the outer circle
 or, of the square markers, their outer side.
 """
 import json
+import os
 import subprocess
 
+from benchmark.marker_flight import measure_flight
 from benchmark.measure import log
 from benchmark.programs import built_benchmark
 from benchmark.scenes import find_scenes
+from benchmark.simulation import simulate
 from benchmark.tables import number, print_table
 
-NUM_PER_SCENE, NUM_MIXED = 1000, 100000
-QUICK_PER_SCENE, QUICK_MIXED = 160, 4000
+NUM_PER_SCENE, NUM_FRONTAL, NUM_MIXED = 1000, 10000, 100000
+QUICK_PER_SCENE, QUICK_FRONTAL, QUICK_MIXED, QUICK_PHOTOS = 160, 1000, 4000, 40
+FLIGHT = "multiscale_500"
 OURS = "plumbline"
 SEEN_RATE = 0.9  # From which rate on a size counts as seen.
 
 
-def add_arguments(_):
+def add_arguments(parser):
     """--quick is that of the scenarios."""
+    parser.add_argument("--flight", help="folder of a simulated flight, whose control points are "
+                        "sought; by default that of %s" % FLIGHT)
 
 
 def measure(program, *arguments):
@@ -35,12 +41,17 @@ def measure(program, *arguments):
 
 def run(arguments):
     program = built_benchmark("marker_benchmark")
-    per_scene, mixed = ((QUICK_PER_SCENE, QUICK_MIXED) if arguments.quick
-                        else (NUM_PER_SCENE, NUM_MIXED))
+    per_scene, per_size, mixed = (
+        (QUICK_PER_SCENE, QUICK_FRONTAL, QUICK_MIXED) if arguments.quick
+        else (NUM_PER_SCENE, NUM_FRONTAL, NUM_MIXED))
     results = {"photos": {}, "failures": []}
     results["scenes"] = measure(program, "scenes", str(per_scene))
+    results["frontal"] = measure(program, "frontal", str(per_size))
     for scene in find_scenes(arguments.data, None):
         results["photos"][scene.name] = measure(program, "photos", scene.photos)[0]
+    flight = arguments.flight or os.path.dirname(simulate(
+        arguments.plumbline, FLIGHT, max_photos=QUICK_PHOTOS if arguments.quick else None).photos)
+    results["flight"] = measure_flight(arguments.plumbline, flight, arguments.output)
     results["mixed"] = measure(program, "mixed", str(mixed))[-1]
     results["figures"] = figures(results)
     results["failures"] += ["markers: %s: %s, but must be %s" % (name, shown, bound)
@@ -70,12 +81,15 @@ def figures(results):
     """Name, bound, what was measured, and whether that meets it."""
     frontal, tilted = ours(results, "frontal"), ours(results, "tilted")
     others = sorted({row["detector"] for row in results["scenes"]} - {OURS})
-    large = min(row["rate"] for row in frontal if row["diameter_px"] >= 24)
-    small = min(row["rate"] for row in frontal if row["diameter_px"] == 16)
+    many = {row["diameter_px"]: row for row in results["frontal"]}
+    large = min([many[24]["rate"]] + [row["rate"] for row in frontal if row["diameter_px"] > 24])
+    small = many[16]["rate"]
     steep = min(row["rate"] for row in tilted if row["tilt_deg"] == 60 and row["diameter_px"] >= 40)
     error_px = max(row["mean_error_px"] for row in frontal + tilted if row["diameter_px"] == 30)
-    wrong = results["mixed"]["wrong"] + sum(row["wrong"] for row in results["scenes"]
-                                            if row["detector"] == OURS)
+    flight = results["flight"]
+    rendered = [results["mixed"]] + results["frontal"] + [
+        row for row in results["scenes"] if row["detector"] == OURS]
+    wrong = sum(row["wrong"] for row in rendered)
     photos = results["photos"].values()
     false = sum(photo[kind]["found"] for photo in photos for kind in ("originals", "mosaics"))
     cpu_s = [photo["mosaics"]["cpu_s"] for photo in photos]
@@ -86,8 +100,10 @@ def figures(results):
         ["found of frontal markers of 16 px", ">= 90 %", percent(small), small >= 0.9],
         ["found of those tilted by 60 deg, 40 px and more", ">= 99 %", percent(steep),
          steep >= 0.99],
-        ["wrong IDs of %d rendered markers" % results["mixed"]["shown"], "0", str(wrong),
+        ["wrong IDs of %d rendered markers" % sum(row["shown"] for row in rendered), "0", str(wrong),
          wrong == 0],
+        ["wrong or false in %d photos of a flight" % flight["photos"], "0",
+         str(flight["wrong"] + flight["false"]), flight["wrong"] + flight["false"] == 0],
         ["markers seen in %d photos without" % sum(p["originals"]["photos"] for p in photos), "0",
          str(false), false == 0],
         ["worst mean centre error at 30 px, up to 60 deg [px]", "<= 0.05", number(error_px, 3),
@@ -122,7 +138,7 @@ def print_results(results):
              percent(row["rate"]), row["wrong"], number(row["mean_error_px"], 3),
              number(row["p95_error_px"], 3), number(row["max_error_px"], 3),
              number(row["cpu_s_per_megapixel"], 3)]
-            for row in results["scenes"] + [results["mixed"]]]
+            for row in results["scenes"] + results["frontal"] + [results["mixed"]]]
     print_table("Markers: rendered with known truth; errors are the centre's",
                 ["scene", "px", "tilt deg", "detector", "found", "wrong", "mean px", "95 % px",
                  "max px", "CPU s/MP"], rows)
@@ -133,6 +149,18 @@ def print_results(results):
                          number(row["cpu_s"], 3), number(row["wall_s"], 3)])
     print_table("Markers: photos without any; mosaics: a photo and its mirror images",
                 ["scene", "", "photos", "MP", "seen", "CPU s", "wall s"], rows)
+    print_flight(results["flight"])
     print_table("Markers: what is asked", ["figure", "asked", "measured", ""],
                 [[name, bound, shown, "" if is_met else "MISSED"]
                  for name, bound, shown, is_met in results["figures"]])
+
+
+def print_flight(flight):
+    rows = [[">= %d" % row["min_px"], row["shown"], percent(row["found"] / row["shown"]),
+             number(row["mean_error_px"], 3), number(row["p95_error_px"], 3),
+             number(row["max_error_px"], 3)] for row in flight["sizes"]]
+    print_table("Markers: control points of %s, %d photos: %d of %d found, %d wrong, %d false; "
+                "%.2f CPU s a photo with its decoding"
+                % (flight["flight"], flight["photos"], flight["found"], flight["shown"],
+                   flight["wrong"], flight["false"], flight["cpu_s"] / flight["photos"]),
+                ["diameter px", "shown", "found", "mean px", "95 % px", "max px"], rows)

@@ -150,7 +150,8 @@ class Intake {
     for (const std::size_t photo : usual_photos_) {
       if (kept.count(photo) == 0) poor.push_back(photos_[photo].name);
     }
-    if (poor.empty()) return;
+    const bool is_alone = usual_photos_.size() < 2;  // A first photo can share nothing yet.
+    if (poor.empty() || (is_alone && printed_.empty())) return;
     Add({Kind::kTooFewMarkers,
          false,
          NamePhotos(poor) + (poor.size() == 1 ? " shows" : " show") + " fewer than " +

@@ -19,7 +19,7 @@ namespace {
 using Kind = CalibrationFinding::Kind;
 
 // Paper curls by as much; what a sheet's bend is told from [marker diameters, and deviations].
-constexpr double kMinHeightDiameters = 0.03;
+constexpr double kMinHeightDiameters = 0.015;
 constexpr double kMinHeightSigmas = 4.0;
 constexpr double kOffFloorDiameters = 0.5;
 constexpr double kMaxShareOut = 0.25;  // Of photos or markers: beyond, the rest may be wrong too.

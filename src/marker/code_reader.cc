@@ -8,8 +8,9 @@
 #include <bitset>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <vector>
 
+#include "plumbline/marker/codebook.h"
 #include "plumbline/marker/marker_layout.h"
 
 namespace plumb {
@@ -33,8 +34,6 @@ constexpr double kMinCircleShare = 0.85;
 constexpr double kMinCircleRise = 0.4;
 constexpr double kMinDiscRise = 0.1;
 
-// Cells that may be flipped to reach a code, besides the one that the codebook corrects.
-constexpr std::size_t kNumUnsureCells = 5;
 // Bound on the share of the cells' variance that the code explains.
 constexpr double kMinExplained = 0.75;
 constexpr double kTinyVariance = 0.25;  // Half a grey level: rounding.
@@ -127,69 +126,71 @@ double Threshold(const Cells& cells) {
   return threshold;
 }
 
-// How well a code explains the cells.
-struct Explanation {
-  CodeMatch match;  // num_errors: cells on the wrong side of the threshold.
-  int start = 0;
-  double residual = 0.0;   // Sum of squares.
-  double explained = 0.0;  // Share of the cells' variance.
-};
+// A row for each code at each rotation, ID by ID: its bits less their mean.
+using CodeTable = Eigen::Matrix<double, Eigen::Dynamic, kNumCodeBits>;
 
-Explanation Explain(const Cells& cells, std::uint32_t word, double leak) {
-  Cells bits;
-  for (int i = 0; i < kNumCodeBits; ++i) bits(i) = static_cast<double>((word >> i) & 1U);
-  const Cells expected = Leak(bits, leak);
-  const Cells from_mean = cells - cells.mean();
-  const Cells expected_from_mean = expected - expected.mean();
-  const double slope =
-      std::max(0.0, (from_mean * expected_from_mean).sum() / expected_from_mean.square().sum());
-  Explanation explanation;
-  explanation.residual = (from_mean - slope * expected_from_mean).square().sum();
-  explanation.explained = 1.0 - explanation.residual / (from_mean.square().sum() + kTinyVariance);
-  return explanation;
+CodeTable MakeCodeTable() {
+  const MarkerCodebook& codebook = MarkerCodebook::Get();
+  CodeTable codes(codebook.size() * kNumCodeBits, kNumCodeBits);
+  for (int row = 0; row < codes.rows(); ++row) {
+    const std::uint32_t word = RotateWord(codebook.Word(row / kNumCodeBits), row % kNumCodeBits);
+    for (int i = 0; i < kNumCodeBits; ++i) codes(row, i) = static_cast<double>((word >> i) & 1U);
+    codes.row(row).array() -= codes.row(row).mean();
+  }
+  return codes;
 }
 
-// The best explanation by each ID, over the words that differ from the thresholded cells in the
-// least sure of them (Chase, A class of algorithms for decoding block codes with channel
-// measurement information, IEEE Trans. Inf. Theory 18(1), 1972, algorithm 2).
-void ExplainAt(const Unrolled& stripe, int start, double leak, std::map<int, Explanation>* best) {
+const CodeTable& AllCodes() {
+  static const CodeTable codes = MakeCodeTable();
+  return codes;
+}
+
+// How well an ID explains the cells at its best start and rotation.
+struct Explanation {
+  int start = 0;
+  int rotation = 0;
+  double residual = std::numeric_limits<double>::infinity();  // Sum of squares.
+  double explained = 0.0;                                     // Share of the cells' variance.
+};
+
+// Explains the cells that begin at sample `start` by every code at every rotation, blurred by the
+// leak: by least squares over the code's contrast. Blurring the cells instead of the codes gives
+// the same products, for the leak is symmetric.
+void ExplainAt(const Unrolled& stripe, int start, double leak, std::vector<Explanation>* by_id) {
   const Cells cells = BinCells(stripe, start);
-  const Cells sharp = Leak(cells, -leak);
-  const Cells from_threshold = sharp - Threshold(sharp);
+  const Cells from_mean = cells - cells.mean();
+  const double total = from_mean.square().sum();
+  const CodeTable& codes = AllCodes();
+  const Eigen::VectorXd products = codes * Leak(from_mean, leak).matrix();
+  for (std::size_t id = 0; id < by_id->size(); ++id) {
+    const auto first = static_cast<Eigen::Index>(id) * kNumCodeBits;
+    const Cells code = codes.row(first).transpose();
+    Eigen::Index rotation = 0;
+    const double product = products.segment<kNumCodeBits>(first).maxCoeff(&rotation);
+    const double length2 = Leak(code, leak).square().sum();
+    const double residual = total - std::pow(std::max(0.0, product), 2) / length2;
+    if (residual >= (*by_id)[id].residual) continue;
+    (*by_id)[id] = {
+        start, static_cast<int>(rotation), residual, 1.0 - residual / (total + kTinyVariance)};
+  }
+}
+
+// The cells by their threshold, once the blur is undone.
+std::uint32_t ThresholdedWord(const Unrolled& stripe, int start, double leak) {
+  const Cells sharp = Leak(BinCells(stripe, start), -leak);
+  const double threshold = Threshold(sharp);
   std::uint32_t word = 0;
-  std::array<int, kNumCodeBits> by_sureness;
   for (int i = 0; i < kNumCodeBits; ++i) {
-    by_sureness[static_cast<std::size_t>(i)] = i;
-    if (from_threshold(i) > 0.0) word |= 1U << i;
+    if (sharp(i) > threshold) word |= 1U << i;
   }
-  std::sort(by_sureness.begin(), by_sureness.end(), [&](int a, int b) {
-    return std::abs(from_threshold(a)) < std::abs(from_threshold(b));
-  });
-  const MarkerCodebook& codebook = MarkerCodebook::Get();
-  for (std::uint32_t flips = 0; flips < 1U << kNumUnsureCells; ++flips) {
-    std::uint32_t flipped = word;
-    for (std::size_t i = 0; i < kNumUnsureCells; ++i) {
-      if (((flips >> i) & 1U) != 0) flipped ^= 1U << by_sureness[i];
-    }
-    const std::optional<CodeMatch> match = codebook.Find(flipped);
-    if (!match) continue;
-    const std::uint32_t code = RotateWord(codebook.Word(match->id), match->rotation);
-    Explanation explanation = Explain(cells, code, leak);
-    explanation.match = *match;
-    explanation.match.num_errors = static_cast<int>(std::bitset<kNumCodeBits>(code ^ word).count());
-    explanation.start = start;
-    const auto known = best->find(match->id);
-    if (known == best->end() || known->second.residual > explanation.residual) {
-      (*best)[match->id] = explanation;
-    }
-  }
+  return word;
 }
 
 // Of the best one, by the likelihoods of all under Gaussian noise of its own size.
-double Probability(const std::map<int, Explanation>& by_id, const Explanation& best) {
+double Probability(const std::vector<Explanation>& by_id, const Explanation& best) {
   const double variance = best.residual / (kNumCodeBits - 2) + kTinyVariance;
   double sum = 0.0;
-  for (const auto& [id, explanation] : by_id) {
+  for (const Explanation& explanation : by_id) {
     sum += std::exp(-0.5 * (explanation.residual - best.residual) / variance);
   }
   return 1.0 / sum;
@@ -206,22 +207,27 @@ std::optional<CodeReading> ReadCode(const MarkerDetectorOptions& options,
   for (const double radius : kStripeRadii) stripe += Unroll(gray, pixel_from_circle, radius);
   stripe /= static_cast<double>(kStripeRadii.size());
   const double leak = LeakOf(pixel_from_circle, search.blur_px);
-  std::map<int, Explanation> by_id;
+  const MarkerCodebook& codebook = MarkerCodebook::Get();
+  std::vector<Explanation> by_id(static_cast<std::size_t>(codebook.size()));
   const int num_starts = search.is_upright ? 1 : kSamplesPerCell;
   for (int start = 0; start < num_starts; ++start) ExplainAt(stripe, start, leak, &by_id);
-  if (by_id.empty()) return std::nullopt;
-  const Explanation& best =
-      std::min_element(by_id.begin(), by_id.end(), [](const auto& a, const auto& b) {
-        return a.second.residual < b.second.residual;
-      })->second;
+  const auto best = std::min_element(by_id.begin(), by_id.end(), [](const auto& a, const auto& b) {
+    return a.residual < b.residual;
+  });
   CodeReading reading;
-  reading.match = best.match;
-  reading.angle_rad =
-      2.0 * M_PI * (best.start + kSamplesPerCell * best.match.rotation) / kNumAngles;
-  reading.probability = Probability(by_id, best);
-  if (best.explained < kMinExplained || reading.probability < options.min_probability) {
+  reading.probability = Probability(by_id, *best);
+  if (best->explained < kMinExplained || reading.probability < options.min_probability) {
     return std::nullopt;
   }
+  const int id = static_cast<int>(best - by_id.begin());
+  const std::uint32_t word = ThresholdedWord(stripe, best->start, leak);
+  const std::optional<CodeMatch> looked_up = codebook.Find(word);
+  if (looked_up && looked_up->id != id) return std::nullopt;
+  const std::uint32_t wrong = word ^ RotateWord(codebook.Word(id), best->rotation);
+  reading.id = id;
+  reading.rotation = best->rotation;
+  reading.num_wrong_cells = static_cast<int>(std::bitset<kNumCodeBits>(wrong).count());
+  reading.angle_rad = 2.0 * M_PI * (best->start + kSamplesPerCell * best->rotation) / kNumAngles;
   return reading;
 }
 

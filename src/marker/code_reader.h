@@ -6,16 +6,17 @@
 #include <optional>
 
 #include "marker/gray_sampler.h"
-#include "plumbline/marker/codebook.h"
 #include "plumbline/marker/marker_detector_options.h"
 
 namespace plumb {
 
 // A code that was read.
 struct CodeReading {
-  CodeMatch match;
+  int id = 0;
+  int rotation = 0;          // The cells are the code turned by so many.
+  int num_wrong_cells = 0;   // That lie on the wrong side of the threshold.
   double angle_rad = 0.0;    // By which the marker's x axis is turned in the canonical circle.
-  double probability = 0.0;  // That all cells but a corrected one were read right.
+  double probability = 0.0;  // Of the code against all others.
 };
 
 // What is known before.
@@ -26,7 +27,9 @@ struct CodeSearch {
 
 // Reads the code through a homography from the canonical circle (the marker's frame but for a
 // rotation) to pixels: verifies the circles, unrolls the code stripe from the photo, bins it into
-// cells by a histogram over the angle, and looks the word up. Nothing if it is no marker.
+// cells by a histogram over the angle, and takes the code that explains the cells best, if it is
+// the only likely one and the codebook finds no other one for the thresholded cells. Nothing if it
+// is no marker.
 std::optional<CodeReading> ReadCode(const MarkerDetectorOptions& options,
                                     const GraySampler& gray,
                                     const Eigen::Matrix3d& pixel_from_circle,

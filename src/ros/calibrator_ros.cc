@@ -18,6 +18,7 @@
 #include "ros/calibration_conversion.h"
 #include "ros/calibrator_wording.h"
 #include "ros/camera_conversion.h"
+#include "ros/driver_service.h"
 #include "ros/image_gray.h"
 
 namespace plumb::ros_adapter {
@@ -152,8 +153,7 @@ std::string CalibratorRos::SetCameraInfoService() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (num_images_ == 0) return {};
   }
-  const std::string space = ros::names::parentNamespace(image_topic_);
-  return ros::names::append(space, "set_camera_info");
+  return SetCameraInfoServiceOf(image_topic_);
 }
 
 Outcome CalibratorRos::SendTo(const std::string& service, const Camera& camera) const {

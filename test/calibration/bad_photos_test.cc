@@ -36,6 +36,7 @@ TEST(BadPhotos, NoneOneOrTwoAreTooFew) {
     EXPECT_FALSE(result.estimate);
     ASSERT_TRUE(FindingOf(result, Kind::kTooFewPhotos)) << TextOf(result);
     EXPECT_THAT(TextOf(result), HasSubstr("from all sides"));
+    EXPECT_FALSE(FindingOf(result, Kind::kTooFewMarkers)) << TextOf(result);
   }
 }
 

@@ -152,21 +152,24 @@ TEST(CalibrateCamera, TellsPosesAndMarkersInMetres) {
   }
 }
 
-TEST(CalibrateCamera, AllowsForABentSheetAndNamesIt) {
-  std::vector<test::ScenePlate> plates = GridPlates();
-  for (test::ScenePlate& plate : plates) {
-    plate.center.z() = 0.094 * (1.0 - std::pow(plate.center.x() / 2.1, 2));  // 3 of 32 mm.
+// By 3 mm and by 2 mm, on markers of 32 mm.
+TEST(CalibrateCamera, AllowsForABentSheetAndNamesAllOfIt) {
+  for (const double bend : {0.094, 0.0625}) {
+    SCOPED_TRACE(bend);
+    std::vector<test::ScenePlate> plates = GridPlates();
+    for (test::ScenePlate& plate : plates) {
+      plate.center.z() = bend * (1.0 - std::pow(plate.center.x() / 2.1, 2));
+    }
+    const CalibrationSceneOptions scene;
+    const CalibrationResult result =
+        CalibrateCamera(GridOptions(), test::PhotographPlates(scene, plates));
+    ASSERT_TRUE(result.estimate) << TextOf(result);
+    EXPECT_LT(FocalErrorPercent(result, scene.camera), 0.2);
+    const auto finding = FindingOf(result, Kind::kOffPlane);
+    ASSERT_TRUE(finding) << TextOf(result);
+    EXPECT_THAT(finding->text, testing::HasSubstr("bent"));
+    EXPECT_EQ(finding->marker_ids.size(), plates.size()) << TextOf(result);
   }
-  const CalibrationSceneOptions scene;
-  const CalibrationResult result =
-      CalibrateCamera(GridOptions(), test::PhotographPlates(scene, plates));
-  ASSERT_TRUE(result.estimate) << TextOf(result);
-  EXPECT_LT(FocalErrorPercent(result, scene.camera), 0.2);
-  const auto finding = FindingOf(result, Kind::kOffPlane);
-  ASSERT_TRUE(finding) << TextOf(result);
-  EXPECT_THAT(finding->text, testing::HasSubstr("bent"));
-  EXPECT_GE(finding->marker_ids.size(), 8U);
-  EXPECT_EQ(result.photos.size(), 12U);
 }
 
 TEST(CalibrateCamera, AllowsForAPrinterThatStretches) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
@@ -232,6 +233,43 @@ TEST(DetectMarkers, AMarkerInAMirrorIsNoOtherMarker) {
     cv::flip(OnlyMarker(id, static_cast<std::uint32_t>(id)), mirrored, 1);
     for (const MarkerDetection& detection : DetectMarkers({}, mirrored)) {
       EXPECT_EQ(detection.id, id);  // Some codes are their own mirror images.
+    }
+  }
+}
+
+// Small, blurred, noisy: such ones were read as another's ID, or parts of them as markers.
+TEST(DetectMarkers, WhatCannotBeReadIsNotGuessed) {
+  struct Hard {
+    double diameter_px;
+    double blur_px;
+    double noise;
+    double white;
+  };
+  const Camera camera = MakeCamera();
+  for (const Hard& hard : {Hard{16.0, 1.2, 4.0, 120.0},
+                           Hard{24.0, 2.0, 2.0, 220.0},
+                           Hard{24.0, 2.5, 2.0, 220.0},
+                           Hard{40.0, 4.0, 2.0, 220.0}}) {
+    for (int seed = 1; seed <= 6; ++seed) {
+      SCOPED_TRACE(seed);
+      const Scene scene = MakeScene(camera, hard.diameter_px, 0.0, seed);
+      PhotoConditions conditions;
+      conditions.samples_per_axis = 3;
+      conditions.blur_px = hard.blur_px;
+      conditions.noise = hard.noise;
+      conditions.black = 60.0;
+      conditions.white = hard.white;
+      conditions.seed = static_cast<std::uint32_t>(seed);
+      const cv::Mat gray = RenderPhoto(camera, scene.faces, conditions);
+      for (const MarkerDetection& detection : DetectMarkers({}, gray)) {
+        EXPECT_TRUE(std::any_of(scene.truth.begin(),
+                                scene.truth.end(),
+                                [&](const Shown& shown) {
+                                  return shown.id == detection.id &&
+                                         (shown.center_px - detection.center_px).norm() < 3.0;
+                                }))
+            << "marker " << detection.id << " at " << detection.center_px.transpose();
+      }
     }
   }
 }

@@ -60,7 +60,8 @@ TEST_F(ViewChoiceTest, TakesAViewFromAnotherPlaceDistanceOrTilt) {
   EXPECT_THAT(Settle({0.5, 0.0, 25.5}), HasSubstr("like one"));
   EXPECT_EQ(Settle({6.0, 0.0, 25.0}), "");
   EXPECT_EQ(Settle({0.0, 0.0, 33.0}), "");
-  EXPECT_EQ(Settle(kAbove, 30.0), "");
+  EXPECT_EQ(Settle(kAbove, 20.0), "");
+  EXPECT_THAT(Settle(kAbove, 22.0), HasSubstr("like one"));
   EXPECT_THAT(Settle(kAbove), HasSubstr("like one"));
 }
 

@@ -22,9 +22,9 @@ struct MarkerDetection {
   // Homography from the marker's frame (marker_layout.h), scaled so that its last entry is 1.
   // With a camera, to the pixels of a pinhole camera with the same fx, fy, cx, cy.
   Eigen::Matrix3d pixel_from_marker = Eigen::Matrix3d::Identity();
-  double probability = 0.0;  // That all cells of the code were read right.
-  double explained = 0.0;    // Share of the grey values' variance that the face explains.
-  int num_corrected_bits = 0;
+  double probability = 0.0;    // Of the code against all others.
+  double explained = 0.0;      // Share of the grey values' variance that the face explains.
+  int num_corrected_bits = 0;  // Cells that by themselves would have been read otherwise.
 };
 
 // Finds the coded markers of a grey photo (CV_8UC1): local threshold, contours, ellipses, circles,

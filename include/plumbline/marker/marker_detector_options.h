@@ -10,7 +10,7 @@ namespace plumb {
 struct MarkerDetectorOptions {
   // Diameters along the minor axis that are searched for. The search begins at the resolution at
   // which the smallest one has six whole pixels, so that from 12 px on its cost falls with the
-  // square of this. At 10, 94 % of rendered markers of 14 px are found, and half of those of 12 px.
+  // square of this. At 10, 91 % of rendered markers of 14 px are found, and 55 % of those of 12 px.
   double min_diameter_px = 10.0;
 
   // A pixel is dark if it is below the mean of its surroundings by this [grey levels].
@@ -23,8 +23,9 @@ struct MarkerDetectorOptions {
   double min_axis_ratio = 0.2;
 
   // Bound on the share of the grey values' variance that the marker's face explains, when it is
-  // laid over the photo.
-  double min_explained = 0.85;
+  // laid over the photo. Noise is not explained: of markers of 30 px with a contrast of 60, a blur
+  // of 2 px and noise of 5 grey levels, 163 of 384 are found at 0.8, and 38 at 0.85.
+  double min_explained = 0.8;
 
   // Bound on the probability of the code against all others.
   double min_probability = 0.9999;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ros/calibrator_window/photo_view.h"
 
+#include <QFontMetrics>
 #include <QPainter>
 #include <utility>
 
@@ -29,6 +30,15 @@ QColor ColorOf(const CalibratorView& view) {
   return view.is_taken ? kGoodColor : kFaintInk;
 }
 
+constexpr int kCaptionFlags = Qt::AlignVCenter | Qt::TextWordWrap;
+
+QFont CaptionFont(const QWidget& widget) { return FontOf(widget, 1.0, /*is_bold=*/true); }
+
+// Of the letters, beside the coloured bar.
+QRect CaptionArea(const QRect& area, int letter_px) {
+  return area.adjusted(letter_px, 0, -letter_px / 2, 0);
+}
+
 }  // namespace
 
 PhotoView::PhotoView(QWidget* parent) : QWidget(parent) {
@@ -47,7 +57,7 @@ void PhotoView::Show(std::shared_ptr<const CalibratorView> view, const QString& 
 void PhotoView::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHints(QPainter::Antialiasing | QPainter::SmoothPixmapTransform);
-  const int caption_px = view_ ? 5 * LetterHeight_px(*this) / 2 : 0;
+  const int caption_px = view_ ? CaptionHeight_px() : 0;
   const QRect area = rect().adjusted(0, 0, 0, -caption_px);
   painter.fillRect(area, QColor(40, 40, 40));
   if (!image_.isNull()) {
@@ -99,17 +109,28 @@ void PhotoView::PaintMarkers(const QRectF& target, QPainter* painter) const {
   }
 }
 
+QString PhotoView::CaptionText() const {
+  const QString name = QString::fromStdString(view_->name);
+  return view_->note.empty() ? name : name + ": " + QString::fromStdString(view_->note);
+}
+
+// Of two lines, so that the photo seldom jumps, or of as many as there are; half is the photo's.
+int PhotoView::CaptionHeight_px() const {
+  const int letter_px = LetterHeight_px(*this);
+  const QRect lines =
+      QFontMetrics(CaptionFont(*this))
+          .boundingRect(
+              QRect(0, 0, CaptionArea(rect(), letter_px).width(), 0), kCaptionFlags, CaptionText());
+  return qMin(qMax(5 * letter_px / 2, lines.height() + letter_px / 2), height() / 2);
+}
+
 void PhotoView::PaintCaption(const QRect& area, QPainter* painter) const {
+  const int letter_px = LetterHeight_px(*this);
   painter->fillRect(area, kPaper);
-  painter->fillRect(QRect(area.topLeft(), QSize(LetterHeight_px(*this) / 2, area.height())),
-                    ColorOf(*view_));
-  const int margin_px = LetterHeight_px(*this);
-  const QRect inner = area.adjusted(margin_px, 0, -margin_px / 2, 0);
-  QString text = QString::fromStdString(view_->name);
-  if (!view_->note.empty()) text += ": " + QString::fromStdString(view_->note);
+  painter->fillRect(QRect(area.topLeft(), QSize(letter_px / 2, area.height())), ColorOf(*view_));
   painter->setPen(ColorOf(*view_));
-  painter->setFont(FontOf(*this, 1.0, /*is_bold=*/true));
-  painter->drawText(inner, Qt::AlignVCenter | Qt::TextWordWrap, text);
+  painter->setFont(CaptionFont(*this));
+  painter->drawText(CaptionArea(area, letter_px), kCaptionFlags, CaptionText());
 }
 
 }  // namespace plumb::ros_adapter

@@ -26,6 +26,8 @@ class PhotoView : public QWidget {
 
  private:
   void PaintMarkers(const QRectF& target, QPainter* painter) const;
+  QString CaptionText() const;
+  int CaptionHeight_px() const;
   void PaintCaption(const QRect& area, QPainter* painter) const;
 
   std::shared_ptr<const CalibratorView> view_;

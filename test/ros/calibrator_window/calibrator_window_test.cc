@@ -215,6 +215,32 @@ TEST(PhotoView, PixelsAreWhereTheImageHasThem) {
   EXPECT_NEAR(right + 1 - left, 200.0, 12.0);  // The ring lies outside of the marker.
 }
 
+// No letter reaches into the first or the last row under the photo.
+TEST(PhotoView, ALongNoteIsShownWhole) {
+  CalibratorView view;
+  view.name = "0005.jpg";
+  view.is_problem = true;
+  view.width_px = view.height_px = 100;
+  view.gray = cv::Mat(100, 100, CV_8UC1, cv::Scalar(0));
+  for (int i = 0; i < 12; ++i) view.note += "Marker 10 is not where the others have it. ";
+  PhotoView widget;
+  widget.resize(600, 400);
+  widget.Show(std::make_shared<const CalibratorView>(view), "");
+  const QImage image = widget.grab().toImage();
+  const int right_of_bar = 30;
+  const auto is_paper = [&](int y) {
+    for (int x = right_of_bar; x < image.width(); ++x) {
+      if (image.pixelColor(x, y) != kPaper) return false;
+    }
+    return true;
+  };
+  int top = image.height() - 1;
+  while (top > 0 && image.pixelColor(image.width() - 1, top - 1) == kPaper) --top;
+  EXPECT_LT(top, image.height() - 60);
+  EXPECT_TRUE(is_paper(top));
+  EXPECT_TRUE(is_paper(image.height() - 1));
+}
+
 TEST(PhotoView, AnUnreadablePhotoIsAWord) {
   CalibratorView view;
   view.name = "broken.jpg";
