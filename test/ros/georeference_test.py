@@ -166,7 +166,9 @@ class GeoreferenceTest(wire.FolderTest):
         self.assertEqual((heard.header.frame_id, heard.child_frame_id), ("earth", "enu"))
         self.assertEqual(heard.transform, placed.earth_from_enu)
         place = heard.transform.translation
-        self.assertAlmostEqual(numpy.hypot(place.x, place.y), 4.25e6, delta=5e4)
+        # 5212 km from the equator along Bessel's meridian is 47.04 degrees north.
+        self.assertAlmostEqual(numpy.hypot(place.x, place.y), 6389.6e3 * numpy.cos(0.8211),
+                               delta=2e3)
 
     def test_a_flight_is_placed_while_it_is_flown_and_the_mapper_is_told(self):
         scales = self.hear("metres_per_map_unit", Float64)
@@ -244,8 +246,8 @@ class GeoreferenceTest(wire.FolderTest):
         kill_node("/plumbline/marker_detector")
         self.leave(self.photos[4:])
         self.wait_for_verdicts(NUM_PHOTOS)
-        before = self.wait_for_all_targets()
-        before = self.georeferences.all()[-1] if before else before
+        self.wait_for_all_targets()
+        before = self.georeferences.all()[-1]
 
         self.georeferences.close()
         kill_node("/plumbline/georeferencer")
@@ -257,10 +259,17 @@ class GeoreferenceTest(wire.FolderTest):
             for target, residual in residuals(before).items():
                 numpy.testing.assert_allclose(residuals(after)[target], residual, atol=1e-6)
 
+        killed = rospy.Time.now()
         kill_node("/plumbline/mapper")
-        self.georeferences.close()
-        self.georeferences = self.hear("georeference", Georeference)
-        rospy.wait_for_service("/plumbline/get_marker_detections", wire.DEADLINE_S)
+        diagnostics = wire.Diagnostics()
+        self.addCleanup(diagnostics.close)
+        after = self.wait_for(lambda g: g.header.stamp > killed and states(g) == states(before),
+                              "the same after a restart of the mapper")
+        diagnostics.wait(
+            lambda heard: any(value.key == "control points of the bundle" and
+                              value.value == str(after.num_control) for message in heard
+                              for status in message.status for value in status.values),
+            "the control points in the mapper again")
         detections = rospy.ServiceProxy("/plumbline/get_marker_detections", GetMarkerDetections)()
         self.assertEqual([answer.sequence for answer in detections.answers],
                          list(range(1, NUM_PHOTOS + 1)))
