@@ -19,4 +19,4 @@ exec rosrun rosbag record -O "$session/flight.bag" --buffsize=0 \
   /plumbline/photo /plumbline/photo_verdict /plumbline/stored_photos /plumbline/map_delta \
   /plumbline/session_camera /plumbline/marker_detections /plumbline/photo_positions /plumbline/georeference \
   /plumbline/metres_per_map_unit /plumbline/control_points \
-  /diagnostics /tf /tf_static /rosout "$@"
+  /diagnostics /tf /rosout "$@"

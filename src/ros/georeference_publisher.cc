@@ -53,12 +53,6 @@ void GeoreferencePublisher::Publish(const plumbline::Georeference& georeference)
     targets_publisher_.publish(WithRemovals(published_targets_, targets));
     published_targets_ = targets;
   }
-  const bool is_on_earth = georeference.is_on_earth != 0;
-  if (is_on_earth && published_earth_from_enu_ != georeference.earth_from_enu) {
-    published_earth_from_enu_ = georeference.earth_from_enu;
-    static_tf_broadcaster_.sendTransform(
-        Transform(options_.earth_frame_id, options_.enu_frame_id, georeference.earth_from_enu));
-  }
   BroadcastMap();
 }
 
@@ -72,6 +66,9 @@ void GeoreferencePublisher::BroadcastMap() {
   if (!published_ || !IsPlaced(*published_)) return;
   tf_broadcaster_.sendTransform(
       Transform(options_.enu_frame_id, options_.map_frame_id, published_->enu_from_map));
+  if (published_->is_on_earth == 0) return;
+  tf_broadcaster_.sendTransform(
+      Transform(options_.earth_frame_id, options_.enu_frame_id, published_->earth_from_enu));
 }
 
 geometry_msgs::TransformStamped GeoreferencePublisher::Transform(

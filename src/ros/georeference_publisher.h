@@ -6,7 +6,6 @@
 #include <plumbline/ControlPoints.h>
 #include <plumbline/Georeference.h>
 #include <ros/node_handle.h>
-#include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 #include <visualization_msgs/MarkerArray.h>
 
@@ -26,8 +25,10 @@ class GeoreferencePublisher {
   void Publish(const plumbline::Georeference& georeference);
   void Publish(const plumbline::ControlPoints& points);
 
-  // The rigid part of enu_from_map, said again and again so that a listener that came late hears
-  // it; nothing while the map has no place: on tf, silence means unknown.
+  // The rigid part of enu_from_map, and earth_from_enu if there is one, said again and again so
+  // that a listener that came late hears it; nothing while the map has no place: on tf, silence
+  // means unknown. Nothing of it is static: another survey may be on no earth, and tf_static takes
+  // nothing back.
   void BroadcastMap();
 
  private:
@@ -42,12 +43,10 @@ class GeoreferencePublisher {
   ros::Publisher targets_publisher_;
   ros::Publisher points_publisher_;
   tf2_ros::TransformBroadcaster tf_broadcaster_;
-  tf2_ros::StaticTransformBroadcaster static_tf_broadcaster_;
 
   std::optional<plumbline::Georeference> published_;
   std::optional<plumbline::ControlPoints> published_points_;
   visualization_msgs::MarkerArray published_targets_;
-  std::optional<geometry_msgs::Transform> published_earth_from_enu_;
 };
 
 }  // namespace plumb::ros_adapter

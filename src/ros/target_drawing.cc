@@ -25,6 +25,10 @@ constexpr double kTextPerExtent = 0.045;
 constexpr double kLetterWidth = 0.54;
 constexpr double kLineHeight = 1.4;
 
+// Plates face the eye of rviz/flight.rviz, which looks from 15 degrees to the left of where the
+// map's first camera looked.
+constexpr double kPlateTurn_rad = -15.0 * M_PI / 180.0;
+
 // No target's.
 constexpr int kSummaryId = -1;
 
@@ -144,29 +148,36 @@ class Drawer {
     drawing_.markers.push_back(marker);
   }
 
-  // On a plate, for dark letters before the points of a facade are not legible. A point of POINTS
-  // is such a plate: it faces the viewer, as the text does. `lowest` is the middle of its lower
-  // edge.
+  // On a plate, for dark letters before the points of a facade are not legible. `lowest` is the
+  // middle of its lower edge.
   void DrawText(const char* name,
                 int id,
                 const Eigen::Vector3d& lowest,
                 const std::string& text,
                 const std_msgs::ColorRGBA& color) {
-    Marker plate = Begin("plates_of_targets", id, Marker::POINTS);
     std::istringstream lines(text);
     double num_lines = 0.0;
     double num_letters = 0.0;
     for (std::string line; std::getline(lines, line); ++num_lines) {
       num_letters = std::max(num_letters, static_cast<double>(line.size()));
     }
+    Marker plate = Begin("plates_of_targets", id, Marker::CUBE);
     plate.scale.x = text_size_ * (kLetterWidth * num_letters + 0.8);
-    plate.scale.y = text_size_ * (kLineHeight * num_lines + 0.3);
-    const Eigen::Vector3d middle = lowest + Eigen::Vector3d(0.0, -size_, 0.5 * plate.scale.y);
-    plate.points = {ToPointMsg(middle)};
+    plate.scale.y = 0.02 * text_size_;
+    plate.scale.z = text_size_ * (kLineHeight * num_lines + 0.3);
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(kPlateTurn_rad, Eigen::Vector3d::UnitZ()));
+    const Eigen::Vector3d towards_eye = turn * -Eigen::Vector3d::UnitY();
+    const Eigen::Vector3d middle =
+        lowest + size_ * towards_eye + Eigen::Vector3d(0.0, 0.0, 0.5 * plate.scale.z);
+    plate.pose.position = ToPointMsg(middle);
+    plate.pose.orientation.w = turn.w();
+    plate.pose.orientation.z = turn.z();
     plate.color = Color(255, 255, 255);
     drawing_.markers.push_back(plate);
+    // Before it even when it is seen from somewhat aside: the text turns, the plate does not.
+    const double ahead = 0.3 * text_size_ + 0.1 * plate.scale.x;
     Marker marker = Begin(name, id, Marker::TEXT_VIEW_FACING);
-    marker.pose.position = ToPointMsg(middle - Eigen::Vector3d(0.0, 0.5 * text_size_, 0.0));
+    marker.pose.position = ToPointMsg(middle + ahead * towards_eye);
     marker.scale.z = text_size_;
     marker.color = color;
     marker.text = text;

@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """flight.launch with photos of a simulated facade with surveyed targets, placed on earth in flight."""
 
+import collections
 import csv
 import os
 import pathlib
@@ -131,6 +132,20 @@ class GeoreferenceTest(wire.FolderTest):
             lambda g: g.source == "targets" and g.num_control + g.num_check == len(self.survey),
             "all targets")
 
+    def wait_for_settled(self):
+        """The georeference with all that the photos show, and the last delta it was told of."""
+        accepted = {v.sequence for v in self.verdicts.all() if v.status == PhotoVerdict.ACCEPTED}
+        service = "/plumbline/get_marker_detections"
+        rospy.wait_for_service(service, wire.DEADLINE_S)
+        ask = rospy.ServiceProxy(service, GetMarkerDetections)
+        wire.wait_until(lambda: len(ask().answers) == NUM_PHOTOS, "an answer for each photo")
+        num_photos = collections.Counter(
+            marker_id for answer in ask().answers if answer.sequence in accepted
+            for marker_id in {marker.id for marker in answer.detections})
+        return self.wait_for(
+            lambda g: {target.id: target.num_photos for target in g.targets} == num_photos and
+            g.num_control + g.num_check == len(self.survey), f"{num_photos}")
+
     def write_survey(self, name, rows):
         path = self.folder / name
         with open(path, "w", newline="") as file:
@@ -152,8 +167,8 @@ class GeoreferenceTest(wire.FolderTest):
 
     def load_on_earth(self):
         """The same targets in Austria, where no photo was taken."""
-        statics = wire.Heard("/tf_static", TFMessage)
-        self.addCleanup(statics.close)
+        transforms = wire.Heard("/tf", TFMessage)
+        self.addCleanup(transforms.close)
         rows = [{**row, "x_m": float(row["x_m"]) - 68000.0, "y_m": float(row["y_m"]) + 212000.0}
                 for row in self.survey]
         path = self.write_survey("austria.csv", rows)
@@ -162,11 +177,14 @@ class GeoreferenceTest(wire.FolderTest):
         placed = self.wait_for(lambda g: g.survey == str(path) and g.is_on_earth, "Austria")
         self.assertEqual(placed.source, "targets")
         self.assertIn("gps_disagrees", codes(placed))
-        heard = statics.wait(len, "earth to enu")[-1].transforms[0]
-        self.assertEqual((heard.header.frame_id, heard.child_frame_id), ("earth", "enu"))
-        self.assertEqual(heard.transform, placed.earth_from_enu)
-        place = heard.transform.translation
-        self.assertAlmostEqual(numpy.hypot(place.x, place.y), 4.25e6, delta=5e4)
+        transforms.wait(
+            lambda heard: any((t.header.frame_id, t.child_frame_id) == ("earth", "enu") and
+                              t.transform == placed.earth_from_enu
+                              for message in heard for t in message.transforms), "earth to enu")
+        place = placed.earth_from_enu.translation
+        # 5212 km from the equator along Bessel's meridian is 47.04 degrees north.
+        self.assertAlmostEqual(numpy.hypot(place.x, place.y), 6389.6e3 * numpy.cos(0.8211),
+                               delta=2e3)
 
     def test_a_flight_is_placed_while_it_is_flown_and_the_mapper_is_told(self):
         scales = self.hear("metres_per_map_unit", Float64)
@@ -244,23 +262,27 @@ class GeoreferenceTest(wire.FolderTest):
         kill_node("/plumbline/marker_detector")
         self.leave(self.photos[4:])
         self.wait_for_verdicts(NUM_PHOTOS)
-        before = self.wait_for_all_targets()
-        before = self.georeferences.all()[-1] if before else before
-
+        before = self.wait_for_settled()
         self.georeferences.close()
         kill_node("/plumbline/georeferencer")
         self.georeferences = self.hear("georeference", Georeference)
-        after = self.wait_for(lambda g: g.map_sequence >= before.map_sequence and
-                              states(g) == states(before), "the same after a restart")
+        after = self.wait_for_settled()
         self.assertEqual(after.survey, str(self.world / "survey.csv"))
         if after.map_sequence == before.map_sequence:
             for target, residual in residuals(before).items():
                 numpy.testing.assert_allclose(residuals(after)[target], residual, atol=1e-6)
 
+        killed = rospy.Time.now()
         kill_node("/plumbline/mapper")
-        self.georeferences.close()
-        self.georeferences = self.hear("georeference", Georeference)
-        rospy.wait_for_service("/plumbline/get_marker_detections", wire.DEADLINE_S)
+        diagnostics = wire.Diagnostics()
+        self.addCleanup(diagnostics.close)
+        after = self.wait_for(lambda g: g.header.stamp > killed and states(g) == states(before),
+                              "the same after a restart of the mapper")
+        diagnostics.wait(
+            lambda heard: any(value.key == "control points of the bundle" and
+                              value.value == str(after.num_control) for message in heard
+                              for status in message.status for value in status.values),
+            "the control points in the mapper again")
         detections = rospy.ServiceProxy("/plumbline/get_marker_detections", GetMarkerDetections)()
         self.assertEqual([answer.sequence for answer in detections.answers],
                          list(range(1, NUM_PHOTOS + 1)))

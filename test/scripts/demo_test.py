@@ -3,6 +3,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the demo says before and after a flight, and of a launch that ends too early."""
 
+import contextlib
+import io
 import pathlib
 import sys
 import tempfile
@@ -48,6 +50,23 @@ class DemoTest(unittest.TestCase):
         verdicts.hear(later)
         self.assertEqual(verdicts.longest_wait_s(), 2.0)
         self.assertEqual(verdicts.num_photos(), 1)
+
+    def test_targets_are_told_with_their_millimetres_and_what_is_wrong(self):
+        target = types.SimpleNamespace(name="5", role="check", state="wrong", error_mm=487.04,
+                                       sigma_mm=2.0, num_used=3)
+        unseen = types.SimpleNamespace(name="6", state="unseen")
+        finding = types.SimpleNamespace(severity="warning", text="target 5 was moved")
+        georeference = types.SimpleNamespace(
+            source="targets", targets=[target, unseen], findings=[finding], num_control=4,
+            control_mean_mm=1.0, control_max_mm=2.0, num_check=0, metres_per_map_unit=0.8)
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said):
+            demo.print_georeference(georeference)
+            demo.print_georeference(None)
+        self.assertEqual(said.getvalue().splitlines(), [
+            "  target 5: check, wrong, 487.0 mm (expected 2.0), in 3 photos",
+            "4 control points: mean 1.00 mm, largest 2.00 mm",
+            "Placed by: targets, 0.800000 m a map unit", "  warning: target 5 was moved"])
 
     def test_a_launch_that_ends_is_told_with_its_reason(self):
         launch = demo.Launch(["bash", "-c", r"echo -e '\e[31m[FATAL] [12.5]: no card\e[0m'; exit 1"])
