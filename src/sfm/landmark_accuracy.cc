@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plumbline/sfm/landmark_accuracy.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
+#include "plumbline/sfm/bundle_problem.h"
 #include "sfm/reprojection_cost.h"
 
 namespace plumb {
@@ -17,6 +20,11 @@ constexpr double kSigmaPerMad = 1.4826;
 
 // Weight of the common scatter against a landmark's own [degrees of freedom].
 constexpr double kPriorFreedom = 4.0;
+
+// Of a feature's scale on the facade: over the 10 m row of a simulated flight, with the true lens,
+// 68 % of the points lie within two standard deviations by the rays alone, 80, 87 and 90 % with
+// 0.1, 0.2 and 0.3 of it.
+constexpr double kReliefPerFootprint = 0.3;
 
 struct Sums {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
@@ -71,9 +79,30 @@ double ScatterOf(Residuals* residuals) {
   return kSigmaPerMad * *middle * std::sqrt(static_cast<double>(absolute.size()) / freedom);
 }
 
+// Scale of the landmark's finest feature, on the facade [map units].
+double FootprintOf(const Map& map, const LensParameters<double>& lens, const Landmark& landmark) {
+  double finest = std::numeric_limits<double>::infinity();
+  for (const Observation& observation : landmark.track) {
+    const View& view = map.view(observation.photo);
+    const double depth = (view.cam_from_map * landmark.position_in_map).z();
+    const double scale_px = view.features->features[observation.feature_idx].scale_px;
+    finest = std::min(finest, scale_px * depth / std::sqrt(lens[kFx] * lens[kFy]));
+  }
+  return finest;
+}
+
 }  // namespace
 
-AccuracyPrediction PredictLandmarkAccuracy(const BundleProblem& problem) {
+double LandmarkAccuracy::RaySigma() const {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(ray_covariance,
+                                                              Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(solver.eigenvalues()[2], 0.0));
+}
+
+double LandmarkAccuracy::Sigma() const { return std::hypot(RaySigma(), relief_sigma); }
+
+AccuracyPrediction PredictLandmarkAccuracy(const Map& map, const LensParameters<double>& lens) {
+  const BundleProblem problem = MakeGlobalBundle({}, map, lens);
   Residuals residuals = Evaluate(problem);
   AccuracyPrediction prediction;
   prediction.sigma_px = ScatterOf(&residuals);
@@ -87,9 +116,10 @@ AccuracyPrediction PredictLandmarkAccuracy(const BundleProblem& problem) {
     if (!is_determined || !inverse.allFinite()) continue;
     const double own =
         (kPriorFreedom * variance + sums.squares) / (kPriorFreedom + FreedomOf(sums));
-    prediction.landmarks.push_back({problem.landmarks[i].id,
-                                    problem.landmarks[i].position_in_map,
+    const LandmarkId id = problem.landmarks[i].id;
+    prediction.landmarks.push_back({id,
                                     std::max(variance, own) * inverse,
+                                    kReliefPerFootprint * FootprintOf(map, lens, map.landmark(id)),
                                     sums.num_observations});
   }
   return prediction;
