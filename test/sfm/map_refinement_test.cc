@@ -195,7 +195,7 @@ TEST_F(LandmarkAccuracyTest, MoreRaysOrNearerOnesMakeAPointMoreCertain) {
 }
 
 TEST_F(LandmarkAccuracyTest, GrowsWithTheMap) {  // Law: no hidden unit of length.
-  const double before = Median([&] {
+  const double sigma = Median([&] {
     std::vector<double> sigmas;
     for (const auto& landmark : PredictLandmarkAccuracy(map_, scene_.camera.lens()).landmarks) {
       sigmas.push_back(landmark.Sigma());
@@ -205,14 +205,15 @@ TEST_F(LandmarkAccuracyTest, GrowsWithTheMap) {  // Law: no hidden unit of lengt
   for (const LandmarkId id : map_.LandmarkIds()) {
     map_.MoveLandmark(id, 10.0 * map_.landmark(id).position_in_map);
   }
-  for (const auto& [photo, view] : Map(map_).views()) {
+  const Map before = map_;
+  for (const auto& [photo, view] : before.views()) {
     map_.MoveView(photo, {view.cam_from_map.rotation, 10.0 * view.cam_from_map.translation});
   }
   std::vector<double> sigmas;
   for (const auto& landmark : PredictLandmarkAccuracy(map_, scene_.camera.lens()).landmarks) {
     sigmas.push_back(landmark.Sigma());
   }
-  EXPECT_NEAR(Median(sigmas), 10.0 * before, 1e-6 * before);
+  EXPECT_NEAR(Median(sigmas), 10.0 * sigma, 1e-6 * sigma);
 }
 
 }  // namespace
