@@ -110,11 +110,22 @@ void FitTo(const std::vector<Profile>& profiles, Panel* panel) {
   panel->most.y() = largest_mm;
 }
 
-void DrawProfiles(const Json& cell, Panel panel, SvgCanvas* canvas) {
+std::vector<Profile> ProfilesOf(const Json& cell) {
   std::vector<Profile> profiles;
   for (const char* bundle : kBundles) profiles.push_back(ProfileOf(cell.at("bundles").at(bundle)));
+  return profiles;
+}
+
+// No wall, or one column of it, is no line.
+bool HasBend(const Json& cell) {
+  const std::vector<Profile> profiles = ProfilesOf(cell);
+  return std::any_of(
+      profiles.begin(), profiles.end(), [](const Profile& profile) { return profile.size() > 1; });
+}
+
+void DrawProfiles(const Json& cell, Panel panel, SvgCanvas* canvas) {
+  const std::vector<Profile> profiles = ProfilesOf(cell);
   FitTo(profiles, &panel);
-  if (!(panel.most.x() > panel.least.x())) return;  // No wall, or one column of it.
   DrawValues(panel, canvas);
   for (std::size_t i = 0; i < profiles.size(); ++i) {
     std::vector<Vector2d> line;
@@ -167,12 +178,16 @@ std::string DrawErrors(const std::vector<ExperimentLine>& lines) {
 
 std::string DrawBend(const std::vector<std::string>& rows, const std::vector<Json>& cells) {
   constexpr double kPanelHeight = 130.0;
-  SvgCanvas canvas(620, 60.0 + static_cast<double>(rows.size()) * (kPanelHeight + 30.0));
-  canvas.Text({60, 20}, "Bend of the flat wall along its length, mm (mean of each 2 m)", 13);
-  double top = 35.0;
+  std::vector<const Json*> drawn;
   for (const std::string& row : rows) {
     const Json* cell = FirstCellOf(cells, row);
-    if (cell == nullptr) continue;
+    if (cell != nullptr && HasBend(*cell)) drawn.push_back(cell);
+  }
+  if (drawn.empty()) return {};
+  SvgCanvas canvas(620, 60.0 + static_cast<double>(drawn.size()) * (kPanelHeight + 30.0));
+  canvas.Text({60, 20}, "Bend of the flat wall along its length, mm (mean of each 2 m)", 13);
+  double top = 35.0;
+  for (const Json* cell : drawn) {
     DrawProfiles(*cell, {{60, top}, {540, kPanelHeight}, {0, 0}, {0, 0}}, &canvas);
     top += kPanelHeight + 30.0;
   }
