@@ -104,7 +104,8 @@ TEST_F(ExperimentTest, MeasuresRowsAndBundlesAndGoesOnWhereItWas) {
     // The survey is off by 1 mm an axis.
     EXPECT_NEAR(check_mm, line["true_check_mm"]["mean"].get<double>(), 4.0);
     // Photos so few and small give no good block; a pixel is 19 mm on the facade.
-    if (line["rows"] == "all" && line["bundle"] == "constrained") EXPECT_LT(check_mm, 30.0);
+    const bool is_best = line["rows"] == "all" && line["bundle"] == "constrained";
+    EXPECT_LT(check_mm, is_best ? 30.0 : 1000.0);
     EXPECT_GT(line["laser_p90_mm"]["mean"].get<double>(), 0.0);
   }
   const Json cell = Json::parse(ReadText(arguments_.output + "/cells/all-seed1.json"));
