@@ -105,7 +105,7 @@ bool SplitSurvey(Survey* survey) {
   if (num_control < static_cast<int>(survey->targets.size())) return false;
   bool is_split = false;
   for (std::size_t i = 1; i < survey->targets.size(); i += 3) {
-    if (NumControlPoints(*survey) == kMinControlPoints) break;
+    if (NumControlPoints(*survey) <= kMinControlPoints) break;
     survey->targets[i].is_check = true;
     is_split = true;
   }
