@@ -130,8 +130,8 @@ class Preparation {
     const Camera& camera = *detection_camera_;
     const std::vector<std::uint8_t> bytes =
         ReadFileBytes(data_.flight.PhotoPath(photo->photo.name));
-    photo->analysis =
-        AnalyzePhoto(data_.options.mapper.features, bytes, camera.width_px(), camera.height_px());
+    photo->analysis = AnalyzePhoto(
+        data_.options.reconstruction.features, bytes, camera.width_px(), camera.height_px());
     MarkerDetectorOptions detector;
     detector.num_threads = 1;
     DetectedPhoto detected =

@@ -45,7 +45,7 @@ struct Reconstruction {
 Reconstruction Reconstruct(const ExperimentData& data, const CellKey& key, const Camera& faulty) {
   const double start_s = ThreadCpu_s();
   SilentListener listener;
-  Mapper mapper(data.options.mapper, faulty, &listener);
+  Mapper mapper(data.options.reconstruction, faulty, &listener);
   int num_photos = 0;
   for (std::size_t i = 0; i < data.photos.size(); ++i) {
     const PreparedPhoto& photo = data.photos[i];

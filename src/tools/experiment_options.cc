@@ -14,7 +14,7 @@ MapperOptions ExperimentOptions::LensRefined() {
 
 std::vector<std::string> ExperimentOptions::Problems() const {
   ProblemList list;
-  list.Append("mapper", mapper.Problems());
+  list.Append("reconstruction", reconstruction.Problems());
   list.Append("refinement", refinement.Problems());
   list.Require(distance_exponent > 0.0 && distance_exponent <= 4.0,
                "distance_exponent",

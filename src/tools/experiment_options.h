@@ -13,7 +13,7 @@ namespace plumb::tools {
 
 struct ExperimentOptions {
   // As in flight, but that the lens is refined while the map grows.
-  MapperOptions mapper = LensRefined();
+  MapperOptions reconstruction = LensRefined();
 
   // Of the last bundles; their lens and distance term follow from the kind of bundle.
   RefinementOptions refinement;
@@ -31,7 +31,7 @@ struct ExperimentOptions {
 
 template <typename Visitor>
 void VisitFields(ExperimentOptions& options, Visitor&& visit) {
-  visit("mapper", options.mapper);
+  visit("reconstruction", options.reconstruction);
   visit("refinement", options.refinement);
   visit("distance_exponent", options.distance_exponent);
   visit("georeferencer", options.georeferencer);

@@ -59,7 +59,7 @@ class ExperimentTest : public testing::Test {
     arguments_.flight = Root() + "/flight";
     arguments_.output = Root() + "/out";
     arguments_.num_seeds = 1;
-    arguments_.settings = {"mapper.features.max_features=1200",
+    arguments_.settings = {"reconstruction.features.max_features=1200",
                            "refinement.num_rounds=1"};  // Quick.
   }
 
