@@ -92,6 +92,7 @@ StoredGeoreference Read(const Json& json) {
   const Json& frame = json.at("frame");
   return {json.at("coarse").get<bool>(),
           json.at("map_sequence").get<std::uint32_t>(),
+          json.value("refined", false),
           ReadSimilarity(json.at("enu_from_map")),
           GeoFrame(frame.at("crs").get<std::string>(),
                    HeightReferenceFromString(frame.at("heights").get<std::string>()),

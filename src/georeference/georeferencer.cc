@@ -322,6 +322,12 @@ const Georeference& Georeferencer::Update() {
                                                        : nullptr;
   RobustSimilarity by_gps;
   if (gps_frame != nullptr) by_gps = AlignToGps(options_, *gps_frame, photos);
+  gps_enu_from_map_.reset();
+  used_gps_frame_.reset();
+  if (by_gps.status == RobustSimilarity::Status::kOk) {
+    gps_enu_from_map_ = by_gps.target_from_source;
+    used_gps_frame_ = *gps_frame;
+  }
   if (!photos.empty()) {
     CompareWithGps(
         by_targets ? &*by_targets : nullptr, by_gps, frame_ ? &*frame_ : nullptr, photos, &result);

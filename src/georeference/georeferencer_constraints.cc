@@ -20,8 +20,23 @@ MeasuredPosition ToMap(const SurveyTarget& target,
 
 }  // namespace
 
+// One standard deviation for all three coordinates: the largest.
+void Georeferencer::AddCenters(BundleConstraints* constraints) const {
+  if (!options_.gps_in_bundle || !gps_enu_from_map_) return;
+  const double sigma_m = std::max(options_.gps_sigma_horizontal_m, options_.gps_sigma_vertical_m);
+  const Similarity3 map_from_enu = gps_enu_from_map_->Inverse();
+  for (const auto& [photo, position] : positions_) {
+    if (views_.count(photo) == 0 || !position.alt_m) continue;
+    const auto in_enu = used_gps_frame_->FromWgs84(position);
+    if (!in_enu) continue;
+    constraints->centers.push_back(
+        {photo, {map_from_enu * *in_enu, sigma_m / gps_enu_from_map_->scale}});
+  }
+}
+
 BundleConstraints Georeferencer::Constraints() const {
   BundleConstraints constraints;
+  AddCenters(&constraints);
   for (const auto& [id, target] : targets_) {
     if (!target.triangulated || target.triangulated->second_point_in_map) continue;
     MarkerTrack track;

@@ -11,6 +11,7 @@
 #include "map/session_lock.h"
 #include "map/session_map.h"
 #include "map/session_photos.h"
+#include "map/session_refinement.h"
 #include "map/session_schema.h"
 #include "map/sqlite.h"
 
@@ -121,6 +122,16 @@ void SessionStore::SaveSeconds(PhotoId id, const StageSeconds& seconds) {
 
 void SessionStore::Apply(const MapDelta& delta) { ApplyDelta(&impl_->database_, delta); }
 MapDelta SessionStore::Snapshot() const { return ReadSnapshot(&impl_->database_); }
+
+void SessionStore::SaveRefinement(const MapDelta& delta) {
+  WriteRefinement(&impl_->database_, delta);
+}
+
+void SessionStore::DropRefinement() { DeleteRefinement(&impl_->database_); }
+
+std::optional<MapDelta> SessionStore::RefinedSnapshot() const {
+  return ReadRefinedSnapshot(&impl_->database_);
+}
 
 std::vector<StoredPhoto> SessionStore::Photos() const { return ReadPhotos(&impl_->database_); }
 

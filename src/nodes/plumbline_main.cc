@@ -31,6 +31,7 @@ int main(int argc, char** argv) {
   AddCheckCommand(&app, &exit_code);
   AddEvaluateCommand(&app, &exit_code);
   AddGeoreferenceCommand(&app, &exit_code);
+  AddExperimentCommand(&app, &exit_code);
   AddExportCommand(&app, &exit_code);
   AddMeshCommand(&app, &exit_code);
   AddMarkersCommand(&app, &exit_code);

@@ -22,6 +22,8 @@ std::vector<std::string> BundleOptions::Problems() const {
   list.Require(
       function_tolerance > 0.0, "function_tolerance", "greater than 0", function_tolerance);
   list.Require(
+      initial_trust_radius > 0.0, "initial_trust_radius", "greater than 0", initial_trust_radius);
+  list.Require(
       global_growth_ratio > 1.0, "global_growth_ratio", "greater than 1", global_growth_ratio);
   list.Require(
       global_latency_photos >= 0, "global_latency_photos", "at least 0", global_latency_photos);

@@ -196,6 +196,7 @@ class Solver {
     options.function_tolerance = function_tolerance;
     options.num_threads = options_.num_threads;
     options.logging_type = ceres::SILENT;
+    options.initial_trust_region_radius = options_.initial_trust_radius;
     options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
     const auto eliminate_first = [&](double* point) {
       if (ceres_->HasParameterBlock(point))

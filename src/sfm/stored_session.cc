@@ -3,8 +3,11 @@
 #include "plumbline/sfm/stored_session.h"
 
 #include <map>
+#include <memory>
 #include <set>
 #include <utility>
+
+#include "sfm/photo_record.h"
 
 namespace plumb {
 namespace {
@@ -43,6 +46,24 @@ StoredSession ReadStoredSession(const SessionStore& store) {
     }
   }
   return session;
+}
+
+Map ReadStoredMap(const SessionStore& store) {
+  const MapDelta snapshot = store.Snapshot();
+  Camera camera = store.camera();
+  if (snapshot.lens) {
+    camera = Camera(
+        camera.name(), camera.width_px(), camera.height_px(), camera.model(), *snapshot.lens);
+  }
+  std::map<PhotoId, std::shared_ptr<const FeatureSet>> features;
+  for (const ViewState& view : snapshot.views_set) {
+    // As the mapper numbers them.
+    features[view.photo] =
+        MakePhotoRecord(
+            camera, view.photo, view.name, view.exposure_time, store.LoadFeatures(view.photo))
+            .features;
+  }
+  return Map::FromSnapshot(snapshot, features);
 }
 
 }  // namespace plumb

@@ -15,6 +15,7 @@ void AddReconstructCommand(CLI::App* app, ExitCode* exit_code);
 void AddCheckCommand(CLI::App* app, ExitCode* exit_code);
 void AddEvaluateCommand(CLI::App* app, ExitCode* exit_code);
 void AddGeoreferenceCommand(CLI::App* app, ExitCode* exit_code);
+void AddExperimentCommand(CLI::App* app, ExitCode* exit_code);
 void AddExportCommand(CLI::App* app, ExitCode* exit_code);
 void AddMeshCommand(CLI::App* app, ExitCode* exit_code);
 void AddMarkersCommand(CLI::App* app, ExitCode* exit_code);

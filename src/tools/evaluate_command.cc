@@ -13,6 +13,7 @@
 #include "tools/geometry_report.h"
 #include "tools/georeference.h"
 #include "tools/original_names.h"
+#include "tools/session_map.h"
 
 namespace plumb::tools {
 namespace {
@@ -92,10 +93,11 @@ void AddOptions(CLI::App* command, EvaluateArguments* arguments) {
       ->capture_default_str();
 }
 
-Json EvaluateByTruth(const EvaluateArguments& arguments, const SessionStore& store) {
+Json EvaluateByTruth(const EvaluateArguments& arguments,
+                     const SessionStore& store,
+                     const MapDelta& snapshot) {
   GeometryTruth truth = arguments.truth;
   truth.photos = ReadTruePoses(arguments.poses);
-  const MapDelta snapshot = store.Snapshot();
   const PoseEvaluation poses =
       EvaluatePoses(WithOriginalNames(snapshot.views_set, store.Photos()), truth.photos);
   if (poses.wrong.size() == poses.photos.size()) {
@@ -129,12 +131,14 @@ void Evaluate(const EvaluateArguments& arguments) {
   }
   const SessionStore store = SessionStore::OpenExisting(arguments.georeference.session);
   Json report = Json::object();
-  if (!arguments.poses.empty()) report = EvaluateByTruth(arguments, store);
+  const SessionMap map = ReadSessionMap(store);
+  if (!arguments.poses.empty()) report = EvaluateByTruth(arguments, store, map.snapshot);
   if (has_survey) {
     Console console(&std::cerr, /*is_terminal=*/false);
-    report["survey"] =
-        ToSurveyJson(GeoreferenceSession(arguments.georeference, store, &console).georeference);
+    report["survey"] = ToSurveyJson(
+        GeoreferenceSession(arguments.georeference, store, map.snapshot, &console).georeference);
   }
+  report["refined"] = map.is_refined;
   std::cout << report.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
 }
 

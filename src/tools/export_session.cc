@@ -7,12 +7,14 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "plumbline/common/atomic_file.h"
 #include "plumbline/export/colmap_text.h"
 #include "plumbline/export/ply.h"
 #include "plumbline/georeference/georeference_file.h"
 #include "tools/georeference.h"
+#include "tools/session_map.h"
 
 namespace plumb::tools {
 namespace {
@@ -24,12 +26,15 @@ constexpr char kNoScale[] =
 
 // That of this very map; a map that has changed since is only said to have none.
 std::optional<StoredGeoreference> FindGeoreference(const SessionStore& store,
-                                                   std::uint32_t map_sequence,
+                                                   const SessionMap& map,
                                                    std::vector<std::string>* lines) {
   const std::string path = GeoreferencePath(store.folder());
   if (!std::filesystem::exists(path)) return std::nullopt;
   StoredGeoreference georeference = ReadGeoreference(path);
-  if (georeference.map_sequence == map_sequence) return georeference;
+  if (georeference.map_sequence == map.snapshot.sequence &&
+      georeference.is_of_refined_map == map.is_refined) {
+    return georeference;
+  }
   lines->push_back(path +
                    ": is of an earlier map; run plumbline georeference again. Written in the map's "
                    "frame, scale free");
@@ -92,8 +97,9 @@ std::string FrameJson(const StoredGeoreference& georeference) {
 
 ExportedSession ExportSession(const SessionStore& store, const std::string& folder) {
   ExportedSession exported;
-  MapDelta snapshot = store.Snapshot();
-  const auto georeference = FindGeoreference(store, snapshot.sequence, &exported.lines);
+  SessionMap map = ReadSessionMap(store);
+  const auto georeference = FindGeoreference(store, map, &exported.lines);
+  MapDelta snapshot = std::move(map.snapshot);
   if (georeference) snapshot = Transformed(std::move(snapshot), georeference->enu_from_map);
   const std::string colmap = folder + "/colmap";
   ExportColmapText(snapshot, store.camera(), colmap);

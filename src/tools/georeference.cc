@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iomanip>
 #include <map>
 #include <mutex>
+#include <sstream>
 #include <stdexcept>
 
 #include "image/parallel_for.h"
@@ -13,6 +15,8 @@
 #include "plumbline/export/colmap_text.h"
 #include "plumbline/georeference/georeference_file.h"
 #include "plumbline/marker/codebook.h"
+#include "plumbline/sfm/map_refinement.h"
+#include "plumbline/sfm/stored_session.h"
 #include "tools/detect.h"
 #include "tools/options_yaml.h"
 #include "tools/original_names.h"
@@ -20,17 +24,33 @@
 namespace plumb::tools {
 namespace {
 
-GeoreferencerOptions ReadOptions(const std::vector<std::string>& settings) {
-  GeoreferencerOptions options;
-  for (const std::string& setting : settings) {
-    ReadValue(ParseSetting(setting), {"--set " + setting, ""}, &options);
+struct Settings {
+  GeoreferencerOptions georeferencer;
+  RefinementOptions refinement;
+};
+
+template <typename Visitor>
+void VisitFields(Settings& settings, Visitor&& visit) {
+  VisitFields(settings.georeferencer, visit);
+  visit("refinement", settings.refinement);
+}
+
+Settings ReadSettings(const std::vector<std::string>& texts) {
+  Settings settings;
+  for (const std::string& text : texts) {
+    ReadValue(ParseSetting(text), {"--set " + text, ""}, &settings);
   }
+  ProblemList list;
+  list.Append("refinement", settings.refinement.Problems());
+  std::vector<std::string> all = settings.georeferencer.Problems();
+  const std::vector<std::string> of_refinement = list.Take();
+  all.insert(all.end(), of_refinement.begin(), of_refinement.end());
   std::string problems;
-  for (const std::string& problem : options.Problems()) {
+  for (const std::string& problem : all) {
     problems += (problems.empty() ? "" : "; ") + problem;
   }
   if (!problems.empty()) throw std::runtime_error("--set: " + problems);
-  return options;
+  return settings;
 }
 
 std::optional<Survey> ReadSurveyOf(const GeoreferenceArguments& arguments) {
@@ -93,6 +113,120 @@ std::string JoinedErrors(const Georeference& georeference) {
   return text;
 }
 
+// What the bundle did, in a line.
+std::string SummaryOf(const MapRefinement& refinement, const Camera& before) {
+  std::ostringstream line;
+  line << std::fixed << std::setprecision(2) << "refined: focal length " << before.MeanFocalLength()
+       << " -> " << refinement.camera.MeanFocalLength() << " px; cost "
+       << refinement.first.initial_cost << " -> " << refinement.last.final_cost << "; "
+       << refinement.num_removed << " observations left out";
+  return line.str();
+}
+
+// A session's map, markers and survey, ready to be georeferenced.
+class Georeferencing {
+ public:
+  // Throws as GeoreferenceSession does.
+  Georeferencing(const GeoreferenceArguments& arguments,
+                 const Settings& settings,
+                 const SessionStore& store,
+                 const MapDelta& snapshot,
+                 Console* console)
+      : survey_(ReadSurveyOf(arguments)),
+        photos_(store.Photos()),
+        camera_(CameraOf(snapshot, store.camera())),
+        map_sequence_(snapshot.sequence),
+        georeferencer_(settings.georeferencer, camera_) {
+    if (snapshot.views_set.empty()) {
+      throw std::runtime_error(store.folder() +
+                               ": no photo is located; run plumbline reconstruct first");
+    }
+    Apply(snapshot);
+    SetPositions(photos_, &georeferencer_);
+    if (survey_) georeferencer_.SetSurvey(*survey_);
+    if (!NeedsMarkers(survey_)) return;
+    std::map<PhotoId, std::string> file_of_photo;
+    for (const StoredPhoto& photo : photos_) file_of_photo[photo.id] = photo.name;
+    FindMarkers(store.folder() + "/photos",
+                camera_,
+                WithOriginalNames(snapshot.views_set, photos_),
+                file_of_photo,
+                arguments.num_threads,
+                &georeferencer_,
+                console);
+  }
+
+  // As the map is now, under the number of the session's map.
+  SessionGeoreference Compute() {
+    SessionGeoreference result;
+    result.survey = survey_;
+    result.georeference = georeferencer_.Update();
+    result.georeference.map_sequence = map_sequence_;
+    result.sightings = georeferencer_.Sightings();
+    return result;
+  }
+
+  // Refines `map`, of which Compute has told, and gives what changed.
+  MapDelta Refine(const RefinementOptions& options, Map* map, Console* console) {
+    const MapRefinement refinement = RefineMap(options, camera_, georeferencer_.Constraints(), map);
+    const std::optional<MapDelta> delta = map->TakeDelta();
+    if (!refinement.is_usable || !delta) {
+      throw std::runtime_error(
+          "the bundle found no better map, or a lens that no camera has; hold the lens with --set "
+          "refinement.bundle.refine_distortion=false, or leave --refine out");
+    }
+    console->PrintLine(SummaryOf(refinement, camera_));
+    Apply(*delta);
+    return *delta;
+  }
+
+ private:
+  void Apply(MapDelta delta) {
+    delta.views_set = WithOriginalNames(delta.views_set, photos_);
+    georeferencer_.Apply(delta);
+  }
+
+  std::optional<Survey> survey_;
+  std::vector<StoredPhoto> photos_;
+  Camera camera_;
+  std::uint32_t map_sequence_;
+  Georeferencer georeferencer_;
+};
+
+// Throws std::runtime_error if there is no georeference, or none that can be used.
+void CheckIsUsable(const GeoreferenceArguments& arguments, const Georeference& georeference) {
+  const std::string errors = JoinedErrors(georeference);
+  if (!errors.empty()) throw std::runtime_error(errors);
+  if (georeference.source != GeoreferenceSource::kNone) return;
+  throw std::runtime_error(arguments.session +
+                           ": no survey was given, and the photos' GPS does not place the model: "
+                           "that needs three located photos with position and height, not in a "
+                           "line; give --survey");
+}
+
+void PrintLines(const Georeference& georeference, Console* console) {
+  for (const std::string& line : Describe(georeference)) console->PrintLine(line);
+}
+
+void WriteFiles(const GeoreferenceArguments& arguments,
+                const SessionGeoreference& result,
+                Console* console) {
+  const std::string path = GeoreferencePath(arguments.session);
+  std::filesystem::create_directories(std::filesystem::path(path).parent_path());
+  nlohmann::ordered_json json = ToJson(result.georeference);
+  json["refined"] = arguments.refine;
+  WriteFileAtomically(path,
+                      json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
+  console->PrintLine("wrote " + path);
+  if (result.georeference.source != GeoreferenceSource::kTargets ||
+      result.survey->crs == kLocalCrs) {
+    return;
+  }
+  const std::string gcp_path = arguments.session + "/export/gcp_list.txt";
+  WriteFileAtomically(gcp_path, ToGcpList(*result.survey, result.sightings));
+  console->PrintLine("wrote " + gcp_path);
+}
+
 }  // namespace
 
 std::string GeoreferencePath(const std::string& session) {
@@ -101,62 +235,34 @@ std::string GeoreferencePath(const std::string& session) {
 
 SessionGeoreference GeoreferenceSession(const GeoreferenceArguments& arguments,
                                         const SessionStore& store,
+                                        const MapDelta& snapshot,
                                         Console* console) {
-  const GeoreferencerOptions options = ReadOptions(arguments.settings);
-  SessionGeoreference result;
-  result.survey = ReadSurveyOf(arguments);
-  MapDelta snapshot = store.Snapshot();
-  if (snapshot.views_set.empty()) {
-    throw std::runtime_error(store.folder() +
-                             ": no photo is located; run plumbline reconstruct first");
-  }
-  const std::vector<StoredPhoto> photos = store.Photos();
-  std::map<PhotoId, std::string> file_of_photo;
-  for (const StoredPhoto& photo : photos) file_of_photo[photo.id] = photo.name;
-  snapshot.views_set = WithOriginalNames(snapshot.views_set, photos);
-  const Camera camera = CameraOf(snapshot, store.camera());
-  Georeferencer georeferencer(options, camera);
-  georeferencer.Apply(snapshot);
-  SetPositions(photos, &georeferencer);
-  if (result.survey) georeferencer.SetSurvey(*result.survey);
-  if (NeedsMarkers(result.survey)) {
-    FindMarkers(store.folder() + "/photos",
-                camera,
-                snapshot.views_set,
-                file_of_photo,
-                arguments.num_threads,
-                &georeferencer,
-                console);
-  }
-  result.georeference = georeferencer.Update();
-  result.sightings = georeferencer.Sightings();
-  return result;
+  const Settings settings = ReadSettings(arguments.settings);
+  return Georeferencing(arguments, settings, store, snapshot, console).Compute();
 }
 
 void WriteSessionGeoreference(const GeoreferenceArguments& arguments, Console* console) {
-  const SessionStore store = SessionStore::OpenExisting(arguments.session);
-  const SessionGeoreference result = GeoreferenceSession(arguments, store, console);
-  const Georeference& georeference = result.georeference;
-  for (const std::string& line : Describe(georeference)) console->PrintLine(line);
-  const std::string errors = JoinedErrors(georeference);
-  if (!errors.empty()) throw std::runtime_error(errors);
-  if (georeference.source == GeoreferenceSource::kNone) {
-    throw std::runtime_error(arguments.session +
-                             ": no survey was given, and the photos' GPS does not place the model: "
-                             "that needs three located photos with position and height, not in a "
-                             "line; give --survey");
+  const Settings settings = ReadSettings(arguments.settings);
+  std::optional<SessionStore> store = SessionStore::OpenExisting(arguments.session);
+  if (arguments.refine || store->RefinedSnapshot()) {  // They are to be written.
+    store.emplace(SessionStore(arguments.session, store->camera()));
   }
-  const std::string path = GeoreferencePath(arguments.session);
-  std::filesystem::create_directories(std::filesystem::path(path).parent_path());
-  WriteFileAtomically(
-      path,
-      ToJson(georeference).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
-  console->PrintLine("wrote " + path);
-  if (georeference.source != GeoreferenceSource::kTargets || result.survey->crs == kLocalCrs)
-    return;
-  const std::string gcp_path = arguments.session + "/export/gcp_list.txt";
-  WriteFileAtomically(gcp_path, ToGcpList(*result.survey, result.sightings));
-  console->PrintLine("wrote " + gcp_path);
+  Georeferencing georeferencing(arguments, settings, *store, store->Snapshot(), console);
+  SessionGeoreference result = georeferencing.Compute();
+  PrintLines(result.georeference, console);
+  CheckIsUsable(arguments, result.georeference);
+  if (arguments.refine) {
+    Map map = ReadStoredMap(*store);
+    const MapDelta delta = georeferencing.Refine(settings.refinement, &map, console);
+    result = georeferencing.Compute();
+    PrintLines(result.georeference, console);
+    CheckIsUsable(arguments, result.georeference);
+    store->SaveRefinement(delta);
+  } else if (store->RefinedSnapshot()) {
+    store->DropRefinement();
+    console->PrintLine("the refinement there was is dropped; --refine makes it anew");
+  }
+  WriteFiles(arguments, result, console);
 }
 
 }  // namespace plumb::tools

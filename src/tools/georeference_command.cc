@@ -30,11 +30,17 @@ void AddGeoreferenceCommand(CLI::App* app, ExitCode* exit_code) {
                       arguments->heights,
                       "Of the survey, instead of its own word: ellipsoidal or orthometric");
   command
-      ->add_option("--set",
-                   arguments->settings,
-                   "KEY=VALUE: one option of GeoreferencerOptions, e.g. marker_diameter_m=0.3; "
-                   "repeat")
+      ->add_option(
+          "--set",
+          arguments->settings,
+          "KEY=VALUE: one option of GeoreferencerOptions, e.g. marker_diameter_m=0.3, or of "
+          "RefinementOptions, e.g. refinement.bundle.distance_exponent=1; repeat")
       ->allow_extra_args(false);
+  command->add_flag("--refine",
+                    arguments->refine,
+                    "Bundle the whole map once more with markers, control points and the lens; the "
+                    "session keeps the result beside its map, for export and evaluate. Without it "
+                    "they go back to the map as it was");
   command->add_option("--threads", arguments->num_threads, "0: all cores")
       ->check(CLI::Range(0, 1024));
   command->callback([arguments, exit_code] {

@@ -160,5 +160,29 @@ TEST_F(GpsTest, ALocalSurveyIsHeldAgainstTheScaleOnly) {
   EXPECT_FALSE(georeference.gps->offset_m);
 }
 
+TEST_F(GpsTest, GoesIntoTheBundleOnlyIfAsked) {
+  Georeferencer without = test::MakeGeoreferencer(scene_);
+  SetPositions({1.0, -0.5, 2.0}, &without);
+  without.Update();
+  EXPECT_TRUE(without.Constraints().centers.empty());
+
+  GeoreferencerOptions options;
+  options.gps_in_bundle = true;
+  Georeferencer georeferencer(options, scene_.camera);
+  georeferencer.Apply(scene_.map);
+  SetPositions({40.0, -30.0, 20.0}, &georeferencer);  // What all are off by is not disputed.
+  georeferencer.Update();
+  const BundleConstraints constraints = georeferencer.Constraints();
+  ASSERT_EQ(constraints.centers.size(), 36U);
+  for (const CenterPrior& prior : constraints.centers) {
+    EXPECT_NEAR(prior.center.sigma / scene_.map_from_enu.scale, 2.0, 0.1);
+    const ViewState& view = scene_.map.views_set[prior.photo.value];
+    const double off_m =
+        (prior.center.position_in_map - view.cam_from_map.TargetOriginInSource()).norm() /
+        scene_.map_from_enu.scale;
+    EXPECT_LT(off_m, 3.0);  // Its noise.
+  }
+}
+
 }  // namespace
 }  // namespace plumb

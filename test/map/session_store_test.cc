@@ -259,5 +259,60 @@ TEST_F(SessionStoreTest, ADeltaThatFailsHalfwayChangesNothing) {
   EXPECT_EQ(store.Snapshot().views_set.size(), 1u);
 }
 
+// What a bundle of the map of MakeDelta(1, 0, 3) might change.
+MapDelta MakeRefinement(const MapDelta& map) {
+  MapDelta refined;
+  refined.sequence = 2;
+  refined.lens = MakeCamera(812.5).lens();
+  refined.views_set = map.views_set;
+  refined.views_set[0].cam_from_map.translation = {7.0, 8.0, 9.0};
+  refined.landmarks_set = {map.landmarks_set[1]};
+  refined.landmarks_set[0].position_in_map = {0.125, 1.0 / 3.0, -2.0};
+  refined.landmarks_removed = {map.landmarks_set[0].id};
+  refined.observations_removed = {map.observations_added[2]};
+  return refined;
+}
+
+TEST_F(SessionStoreTest, ARefinementLiesBesideTheMap) {
+  SessionStore store = MakeStore(folder_);
+  EXPECT_FALSE(store.RefinedSnapshot());
+  const MapDelta map = MakeDelta(1, 0, 3);
+  ASSERT_EQ(map.observations_added.size(), 3u);
+  store.Apply(map);
+  const MapDelta refined = MakeRefinement(map);
+  store.SaveRefinement(refined);
+  ExpectEqual(store.Snapshot(), map);  // As it was.
+
+  const auto snapshot = SessionStore::OpenExisting(folder_).RefinedSnapshot();
+  ASSERT_TRUE(snapshot);
+  EXPECT_EQ(snapshot->sequence, 1u);
+  EXPECT_EQ(snapshot->lens, refined.lens);
+  EXPECT_EQ(snapshot->views_set[0].cam_from_map.translation, Eigen::Vector3d(7.0, 8.0, 9.0));
+  ASSERT_EQ(snapshot->landmarks_set.size(), 2u);
+  EXPECT_EQ(snapshot->landmarks_set[0].position_in_map, refined.landmarks_set[0].position_in_map);
+  EXPECT_EQ(snapshot->landmarks_set[1].position_in_map, map.landmarks_set[2].position_in_map);
+  for (const ObservationState& observation : snapshot->observations_added) {
+    EXPECT_EQ(observation.landmark, map.landmarks_set[1].id);
+  }
+
+  store.DropRefinement();
+  EXPECT_FALSE(store.RefinedSnapshot());
+  ExpectEqual(store.Snapshot(), map);
+}
+
+TEST_F(SessionStoreTest, ARefinementIsOfTheMapItWasMadeOf) {
+  SessionStore store = MakeStore(folder_);
+  store.DropRefinement();  // Nothing there.
+  const MapDelta map = MakeDelta(1, 0, 3);
+  store.Apply(map);
+  MapDelta refined = MakeRefinement(map);
+  refined.sequence = 5;
+  EXPECT_THROW(store.SaveRefinement(refined), std::logic_error);
+  refined.sequence = 2;
+  store.SaveRefinement(refined);
+  store.Apply(MakeDelta(2, 1, 3));
+  EXPECT_FALSE(store.RefinedSnapshot());
+}
+
 }  // namespace
 }  // namespace plumb

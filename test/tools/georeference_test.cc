@@ -273,5 +273,109 @@ TEST_F(GeoreferenceTest, ReadsTheSurveyOfTheSimulator) {
   }
 }
 
+// The same session with a map of 80 landmarks, as the mapper leaves it but for an error: the two
+// photos in the middle have been moved back.
+class RefinementTest : public GeoreferenceTest {
+ protected:
+  RefinementTest() {
+    SessionStore store(arguments_.session, SmallCamera());
+    MapDelta delta;
+    delta.sequence = 2;
+    delta.landmarks_removed = {{0}};
+    std::array<FeatureSet, 4> features;
+    test::Random random(3);
+    for (std::uint32_t i = 1; i <= 80; ++i) {
+      const Vector3d point = random.InBox(1.0).cwiseProduct(Vector3d(2.0, 0.2, 1.2));
+      delta.landmarks_set.push_back({{i}, map_from_world_ * point, {9, 9, 9}});
+      for (std::uint32_t k = 0; k < 4; ++k) Observe(point, k, {i}, &features[k], &delta);
+    }
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      Rigid3 cam_from_world = CamFromWorld(static_cast<int>(k));
+      if (k == 1 || k == 2) cam_from_world.translation.z() += 0.01;
+      delta.views_set.push_back(
+          {{k}, std::to_string(k) + ".png", {}, TransformCamera(map_from_world_, cam_from_world)});
+      SaveFeatures({k}, features[k], &store);
+    }
+    store.Apply(delta);
+  }
+
+  static void Observe(const Vector3d& point,
+                      std::uint32_t photo,
+                      LandmarkId id,
+                      FeatureSet* features,
+                      MapDelta* delta) {
+    const auto pixel = SmallCamera().Project(CamFromWorld(static_cast<int>(photo)) * point);
+    if (!pixel || !SmallCamera().IsInImage(*pixel)) return;
+    const Eigen::Vector2f raw = pixel->cast<float>();
+    delta->observations_added.push_back(
+        {id, {photo}, static_cast<std::uint32_t>(features->features.size()), raw});
+    features->features.push_back({raw.x(), raw.y(), 2.0F, 0.0F});
+    features->colors.push_back({9, 9, 9});
+  }
+
+  static void SaveFeatures(PhotoId photo, const FeatureSet& features, SessionStore* store) {
+    PhotoAnalysis analysis;
+    analysis.status = PhotoStatus::kOk;
+    analysis.features = features;
+    analysis.features.descriptors.setZero(static_cast<Eigen::Index>(features.features.size()),
+                                          kDescriptorSize);
+    store->SaveAnalysis(photo, {}, analysis);
+  }
+
+  std::vector<std::string> HeldLens() const {
+    return {"refinement.bundle.refine_focal_length=false",
+            "refinement.bundle.refine_principal_point=false",
+            "refinement.bundle.refine_distortion=false"};
+  }
+};
+
+TEST_F(RefinementTest, TheMapIsMendedAndTheOneBeforeIsKept) {
+  Run();
+  const nlohmann::json before = Written();
+  const std::size_t num_views =
+      SessionStore::OpenExisting(arguments_.session).Snapshot().views_set.size();
+  arguments_.refine = true;
+  arguments_.settings = HeldLens();
+  EXPECT_THAT(Run(), HasSubstr("refined: focal length 1000.00 -> 1000.00 px"));
+  const nlohmann::json after = Written();
+  EXPECT_EQ(after["refined"], true);
+  EXPECT_EQ(after["map_sequence"], before["map_sequence"]);
+  EXPECT_LT(after["check"]["mean_mm"].get<double>(),
+            0.5 * before["check"]["mean_mm"].get<double>());
+  EXPECT_LT(after["check"]["mean_mm"].get<double>(), 1.0);
+  {
+    const SessionStore store = SessionStore::OpenExisting(arguments_.session);
+    ASSERT_TRUE(store.RefinedSnapshot());
+    EXPECT_EQ(store.Snapshot().views_set.size(), num_views);
+    EXPECT_EQ(store.Snapshot().sequence, 2U);
+  }
+  EXPECT_THAT(Export()[0], HasSubstr("metres"));  // Of the refined map.
+
+  arguments_.refine = false;
+  EXPECT_THAT(Run(), HasSubstr("dropped"));
+  EXPECT_EQ(Written()["refined"], false);
+  EXPECT_EQ(Written()["check"], before["check"]);
+  EXPECT_FALSE(SessionStore::OpenExisting(arguments_.session).RefinedSnapshot());
+}
+
+TEST_F(RefinementTest, AGeoreferenceOfTheOtherMapIsNotTaken) {
+  Run();
+  const nlohmann::json unrefined = Written();
+  arguments_.refine = true;
+  arguments_.settings = HeldLens();
+  Run();
+  std::ofstream(GeoreferencePath(arguments_.session)) << unrefined;
+  EXPECT_THAT(Export()[0], HasSubstr("is of an earlier map"));
+}
+
+TEST_F(RefinementTest, SaysWhichOptionIsWrong) {
+  arguments_.refine = true;
+  arguments_.settings = {"refinement.num_rounds=0"};
+  EXPECT_THAT(ErrorOf(), HasSubstr("refinement.num_rounds"));
+  arguments_.settings = {"refinement.bundle.distance_exponent=9"};
+  EXPECT_THAT(ErrorOf(), HasSubstr("distance_exponent"));
+  EXPECT_FALSE(SessionStore::OpenExisting(arguments_.session).RefinedSnapshot());
+}
+
 }  // namespace
 }  // namespace plumb::tools

@@ -25,6 +25,7 @@ nlohmann::ordered_json ToJson(const Georeference& georeference);
 struct StoredGeoreference {
   bool is_coarse = false;
   std::uint32_t map_sequence = 0;
+  bool is_of_refined_map = false;  // "refined", which the session's tools add.
   Similarity3 enu_from_map;
   GeoFrame frame;
 };

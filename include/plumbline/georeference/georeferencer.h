@@ -57,7 +57,9 @@ class Georeferencer {
   std::vector<PointedTarget> Sightings() const;
 
   // The same for the mapper's bundle, by the last Update: every target is a track; good control
-  // points carry their survey, brought into the map. Check points and wrong ones do not.
+  // points carry their survey, brought into the map. Check points and wrong ones do not. Positions
+  // by GPS come, if the options say so, as the similarity that fits them best brings them into the
+  // map: what all of them are off by, or the place and turn that targets give, is not disputed.
   BundleConstraints Constraints() const;
 
  private:
@@ -78,6 +80,8 @@ class Georeferencer {
   std::optional<double> DiameterInMap() const;
   std::vector<GpsPhoto> GpsPhotos() const;
   std::vector<Eigen::Vector3d> ModelSample(const Similarity3& enu_from_map) const;
+
+  void AddCenters(BundleConstraints* constraints) const;
 
   void UseTargets(const RobustSimilarity& similarity, Georeference* georeference);
   void UseGps(const RobustSimilarity& similarity,
@@ -100,6 +104,8 @@ class Georeferencer {
   std::map<int, Target> targets_;  // What was seen in located photos, by id.
   std::set<int> changed_ids_;      // Of them and of new ones, since the last Update.
   Georeference georeference_;
+  std::optional<Similarity3> gps_enu_from_map_;  // By GPS alone, in the frame below.
+  std::optional<GeoFrame> used_gps_frame_;
 };
 
 }  // namespace plumb

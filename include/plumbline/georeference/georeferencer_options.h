@@ -33,6 +33,10 @@ struct GeoreferencerOptions {
   // The same of its height [m].
   double gps_sigma_vertical_m = 2.0;
 
+  // The photos' GPS goes into the bundle as well, by its standard deviations. It helps where there
+  // are no targets; beside targets it weighs nothing.
+  bool gps_in_bundle = false;
+
   // GPS without correction is off by up to this, all the flight [m]: more is said aloud.
   double max_gps_offset_m = 10.0;
 
@@ -53,6 +57,7 @@ void VisitFields(GeoreferencerOptions& options, Visitor&& visit) {
   visit("marker_diameter_m", options.marker_diameter_m);
   visit("gps_sigma_horizontal_m", options.gps_sigma_horizontal_m);
   visit("gps_sigma_vertical_m", options.gps_sigma_vertical_m);
+  visit("gps_in_bundle", options.gps_in_bundle);
   visit("max_gps_offset_m", options.max_gps_offset_m);
   visit("min_coverage", options.min_coverage);
 }

@@ -77,6 +77,15 @@ class SessionStore {
   // The whole map under the number of the last delta applied.
   MapDelta Snapshot() const;
 
+  // Keeps what a refinement changes in the map, beside the map itself, in place of the one before.
+  // Precondition: `delta` follows the last delta applied.
+  void SaveRefinement(const MapDelta& delta);
+  void DropRefinement();
+
+  // The map as it was refined, under the number of the map it was made of; nothing if it was not
+  // or has changed since.
+  std::optional<MapDelta> RefinedSnapshot() const;
+
   std::vector<StoredPhoto> Photos() const;           // By id.
   std::vector<PhotoVerdict> LatestVerdicts() const;  // By photo.
   std::vector<PhotoVerdict> AllVerdicts() const;     // As they were given.

@@ -39,6 +39,11 @@ struct BundleOptions {
   // moves the cameras of the shared scenes by about 0.1 mm in the mean error.
   double function_tolerance = 1e-4;
 
+  // How far the first step may go, as Ceres counts it (Levenberg-Marquardt's damping is one over
+  // it). A map that is nearly solved takes whole Gauss-Newton steps: only they settle soon what the
+  // photos hardly determine, focal length and bend.
+  double initial_trust_radius = 1e4;
+
   // A global bundle starts when the number of views has grown by this factor
   // since the last one: its cost per photo then stays bounded.
   double global_growth_ratio = 1.25;
@@ -72,6 +77,7 @@ void VisitFields(BundleOptions& options, Visitor&& visit) {
   visit("max_local_iterations", options.max_local_iterations);
   visit("max_global_iterations", options.max_global_iterations);
   visit("function_tolerance", options.function_tolerance);
+  visit("initial_trust_radius", options.initial_trust_radius);
   visit("global_growth_ratio", options.global_growth_ratio);
   visit("global_latency_photos", options.global_latency_photos);
   visit("refine_focal_length", options.refine_focal_length);

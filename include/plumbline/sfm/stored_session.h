@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "plumbline/map/map.h"
 #include "plumbline/map/session_store.h"
 #include "plumbline/sfm/mapper.h"
 
@@ -22,5 +23,9 @@ struct StoredSession {
 // Reads a session that may have been cut off at any moment. A photo whose verdict says accepted
 // but whose view did not reach the disk counts as unfinished. Throws as SessionStore does.
 StoredSession ReadStoredSession(const SessionStore& store);
+
+// The map of a session as it is stored, with its features; a refinement is not looked at. Throws as
+// SessionStore does.
+Map ReadStoredMap(const SessionStore& store);
 
 }  // namespace plumb

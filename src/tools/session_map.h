@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "plumbline/map/session_store.h"
+
+namespace plumb::tools {
+
+// A session's map, as it was refined if it was.
+struct SessionMap {
+  MapDelta snapshot;
+  bool is_refined = false;
+};
+
+SessionMap ReadSessionMap(const SessionStore& store);
+
+}  // namespace plumb::tools
