@@ -39,6 +39,9 @@ def parse_arguments():
     parser.add_argument("--data", default=os.environ.get(
         "PLUMBLINE_DATA", os.path.join(ROOT, "..", "shared", "data")), help="folder of scenes")
     parser.add_argument("--plumbline", default=built_program(), help="the built program")
+    parser.add_argument("--flight", metavar="DIR",
+                        help="markers, multiscale: a folder by plumbline simulate, in place of "
+                             "multiscale_500 simulated anew")
     parser.add_argument("--output", default=os.path.join(ROOT, "build", "bench"))
     for section in ALL_SECTIONS.values():
         section.add_arguments(parser)

@@ -26,8 +26,6 @@ SEEN_RATE = 0.9  # From which rate on a size counts as seen.
 
 def add_arguments(parser):
     """--quick is that of the scenarios."""
-    parser.add_argument("--flight", help="folder of a simulated flight, whose control points are "
-                        "sought; by default that of %s" % FLIGHT)
 
 
 def measure(program, *arguments):

@@ -22,8 +22,6 @@ MOST_MM = {"10m": 3.0, "6m": 8.0, "4m": 15.0, "all": 3.0}
 
 
 def add_arguments(parser):
-    parser.add_argument("--flight", help="multiscale: a folder by plumbline simulate, in place of "
-                        "one simulated anew")
     parser.add_argument("--seeds", type=int, default=2, help="multiscale: faulty calibrations")
 
 

@@ -27,8 +27,8 @@ constexpr std::uint32_t kPhotoQueue = 100;
 constexpr std::uint32_t kDetectionsQueue = 1000;
 
 constexpr const char* kFullQueue =
-    "the queue is full: photos come faster than markers are found; those dropped have no "
-    "detections. Raise max_queue or detector/num_threads; `plumbline detect` finds them afterwards";
+    "the queue is full: photos come faster than markers are found. With a session, those left out "
+    "are searched once nothing waits; else `plumbline detect` finds them afterwards";
 
 double SteadySeconds() { return ros::SteadyTime::now().toSec(); }
 
