@@ -5,6 +5,7 @@
 
 import math
 import random
+import time
 import unittest
 
 import rospy
@@ -128,6 +129,14 @@ class MesherTest(unittest.TestCase):
         self.mesher = wire.start_node("mesher", self.namespace, **parameters)
         self.addCleanup(lambda process=self.mesher: process.poll() is None and wire.end(process))
         self.heard.wait(lambda messages: any(m.is_snapshot for m in messages), "a mesh")
+        self.wait_for_listener()
+
+    def wait_for_listener(self):
+        """Asked again and again: rospy does not tell when a subscriber gets its connection."""
+        deadline_s = time.monotonic() + wire.DEADLINE_S
+        while not self.deltas.get_num_connections():
+            self.assertLess(time.monotonic(), deadline_s, "the mesher does not listen")
+            time.sleep(0.02)
 
     def get_mesh(self):
         service = rospy.ServiceProxy(f"{self.namespace}/get_mesh", GetMesh)

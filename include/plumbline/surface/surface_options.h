@@ -16,10 +16,10 @@ struct SurfaceOptions {
 
   // Between cells of unlike labels, through a face that a ray crosses first; times 0 to 2 by the
   // angles of the face. Each side of the face counts.
-  int beta_vis = 48;
+  int beta_vis = 36;
 
   // The same, through any other face.
-  int beta_init = 96;
+  int beta_init = 72;
 
   // A landmark stands on a lattice of the pitch d / 2^bits, d being the distance of its nearest
   // camera, rounded down to a power of two. A move within the pitch changes no tetrahedra.
