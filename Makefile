@@ -13,7 +13,7 @@ SANITIZED := build-sanitize
 JOBS ?= $(shell nproc)
 SIMULATED := $(BUILD)/demo_flight
 PHOTOS ?= $(SIMULATED)/photos
-CAMERA ?= $(dir $(patsubst %/,%,$(PHOTOS)))camera.yaml
+CAMERA ?= $(shell dirname "$(PHOTOS)")/camera.yaml
 
 .PHONY: help has-photos deps build test test-sanitize bench demo docs format lint clean
 

@@ -3,6 +3,7 @@
 #include "tools/georeference.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iomanip>
 #include <map>
@@ -123,6 +124,23 @@ std::string SummaryOf(const MapRefinement& refinement, const Camera& before) {
   return line.str();
 }
 
+// What a refined lens is to be held against; empty if it hardly changed. From photos at one
+// distance before a flat wall the focal length and the distance can change together, and the
+// markers, which lie in the wall, do not tell.
+std::string LensWarning(const MapRefinement& refinement, const Camera& before) {
+  constexpr double kMaxChange = 0.003;  // A calibration that is off by more was of another camera.
+  const double change = refinement.camera.MeanFocalLength() / before.MeanFocalLength() - 1.0;
+  if (std::abs(change) <= kMaxChange) return "";
+  std::ostringstream line;
+  line
+      << std::fixed << std::setprecision(2) << "warning: the focal length changed by "
+      << 100.0 * change
+      << " %, more than a calibration is usually off. Photos from one distance leave it open: what "
+         "lies before or behind the wall may be worse than before, and no target tells. If the "
+         "camera was calibrated, refine with --set refinement.bundle.refine_focal_length=false";
+  return line.str();
+}
+
 // A session's map, markers and survey, ready to be georeferenced.
 class Georeferencing {
  public:
@@ -176,6 +194,8 @@ class Georeferencing {
           "refinement.bundle.refine_distortion=false, or leave --refine out");
     }
     console->PrintLine(SummaryOf(refinement, camera_));
+    const std::string warning = LensWarning(refinement, camera_);
+    if (!warning.empty()) console->PrintLine(warning);
     Apply(*delta);
     return *delta;
   }
