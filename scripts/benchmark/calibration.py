@@ -4,13 +4,11 @@
 
 The figures are those of test/benchmark/calibration_benchmark.cc.
 """
-import json
-import os
 import statistics
-import subprocess
 
 from benchmark.measure import log
-from benchmark.simulation import ROOT, simulate
+from benchmark.programs import built_benchmark, measure
+from benchmark.simulation import simulate
 from benchmark.tables import number, print_table
 
 NUM_SETS = 50
@@ -30,24 +28,8 @@ def add_arguments(_):
     pass
 
 
-def built_benchmark():
-    build = os.path.join(ROOT, "build")
-    subprocess.run(["cmake", "--build", build, "--target", "calibration_benchmark"], check=True,
-                   stdout=subprocess.DEVNULL)
-    paths = [os.path.join(build, "calibration_benchmark"),
-             os.path.join(ROOT, "devel", "lib", "plumbline", "calibration_benchmark")]
-    return next(path for path in paths if os.path.exists(path))
-
-
-def measure(program, *arguments):
-    done = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True)
-    if done.returncode != 0:
-        raise RuntimeError(done.stderr.strip())
-    return json.loads(done.stdout)
-
-
 def run(arguments):
-    program = built_benchmark()
+    program = built_benchmark("calibration_benchmark")
     results = {"rendered": [], "sets": {}, "failures": []}
     for name, scenario, grid, hidden, bounds, finding in RENDERED:
         scene = simulate(arguments.plumbline, scenario)

@@ -176,13 +176,16 @@ def measure(plumbline, flight, row, work, max_photos=None, limit_s=None):
     """What COLMAP makes of the row, kept in work/result.json; with "cut_off", the step that
     `limit_s` for all steps ended, there are no errors."""
     result_path = os.path.join(work, "result.json")
+    asked = {"flight": os.path.abspath(flight), "row": row, "max_photos": max_photos}
     if os.path.exists(result_path):
         with open(result_path) as file:
-            return json.load(file)
+            known = json.load(file)
+        if known["of"] == asked:
+            return known
     shutil.rmtree(work, ignore_errors=True)
     os.makedirs(os.path.join(work, "sparse"))
     link_photos(flight, row, os.path.join(work, "photos"), max_photos)
-    result = {"registered": 0, "control_mm": None, "check_mm": None, "wall_s": 0.0, "cpu_s": 0.0}
+    result = {"of": asked, "registered": 0, "control_mm": None, "check_mm": None, "wall_s": 0.0, "cpu_s": 0.0}
     for step, command in commands(flight, work):
         log("colmap: " + step)
         left_s = None if limit_s is None else max(limit_s - result["wall_s"], 0.0)

@@ -8,11 +8,9 @@ or, of the square markers, their outer side.
 """
 import json
 import os
-import subprocess
 
 from benchmark.marker_flight import measure_flight
-from benchmark.measure import log
-from benchmark.programs import built_benchmark
+from benchmark.programs import built_benchmark, run_benchmark
 from benchmark.scenes import find_scenes
 from benchmark.simulation import simulate
 from benchmark.tables import number, print_table
@@ -30,11 +28,7 @@ def add_arguments(parser):
 
 def measure(program, *arguments):
     """One dictionary a line that the program prints."""
-    log("marker_benchmark " + " ".join(arguments))
-    done = subprocess.run([program, *arguments], capture_output=True, text=True)
-    if done.returncode != 0:
-        raise RuntimeError("marker_benchmark %s: %s" % (" ".join(arguments), done.stderr.strip()))
-    return [json.loads(line) for line in done.stdout.splitlines()]
+    return [json.loads(line) for line in run_benchmark(program, *arguments).splitlines()]
 
 
 def run(arguments):

@@ -4,13 +4,12 @@
 
 The figures are those of test/benchmark/surface_benchmark.cc.
 """
-import json
 import os
 import shutil
-import subprocess
 
-from benchmark.measure import log, run_timed
-from benchmark.simulation import ROOT, simulate
+from benchmark.measure import run_timed
+from benchmark.programs import built_benchmark, measure
+from benchmark.simulation import simulate
 from benchmark.tables import number, print_table
 
 SCENES = ["demo", "hand_flown"]
@@ -23,27 +22,9 @@ def add_arguments(parser):
                         help="a reconstructed session whose flight is meshed as well; repeat")
 
 
-def built_benchmark():
-    """Benchmarks are not in the target all."""
-    build = os.path.join(ROOT, "build")
-    subprocess.run(["cmake", "--build", build, "--target", "surface_benchmark"], check=True,
-                   stdout=subprocess.DEVNULL)
-    paths = [os.path.join(build, "surface_benchmark"),
-             os.path.join(ROOT, "devel", "lib", "plumbline", "surface_benchmark")]
-    return next(path for path in paths if os.path.exists(path))
-
-
-def measure(program, *arguments):
-    log("surface_benchmark " + " ".join(arguments))
-    done = subprocess.run([program, *arguments], capture_output=True, text=True)
-    if done.returncode != 0:
-        raise RuntimeError(done.stderr.strip())
-    return json.loads(done.stdout)
-
-
 def run(arguments):
     results = {"truth": {}, "flights": {}, "failures": []}
-    program = built_benchmark()
+    program = built_benchmark("surface_benchmark")
     for name in SCENES:
         try:
             run_scene(arguments, program, name, results)

@@ -94,6 +94,14 @@ Camera::Camera(std::string name,
   CheckFieldCoversImage(*this);
 }
 
+std::optional<Camera> Camera::WithLens(const LensParameters<double>& lens) const {
+  try {
+    return Camera(name_, width_px_, height_px_, model_, lens);
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
+}
+
 double Camera::MeanFocalLength() const { return std::sqrt(lens_[kFx] * lens_[kFy]); }
 
 std::optional<Eigen::Vector2d> Camera::Project(const Eigen::Vector3d& point_in_cam) const {

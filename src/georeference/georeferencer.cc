@@ -73,9 +73,9 @@ bool Georeferencer::Apply(const MapDelta& delta) {
     MarkAllChanged();
   }
   sequence_ = delta.sequence;
-  if (delta.lens) {
-    camera_ = {
-        camera_.name(), camera_.width_px(), camera_.height_px(), camera_.model(), *delta.lens};
+  // An impossible lens is left out.
+  if (auto camera = delta.lens ? camera_.WithLens(*delta.lens) : std::nullopt) {
+    camera_ = *std::move(camera);
     MarkAllChanged();
   }
   for (const LandmarkId id : delta.landmarks_removed) landmarks_.erase(id);

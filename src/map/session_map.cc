@@ -168,6 +168,10 @@ void ApplyDelta(sqlite::Database* database, const MapDelta& delta) {
 
 MapDelta ReadSnapshot(sqlite::Database* database) {
   const sqlite::ReadTransaction transaction(database);
+  return ReadSnapshotInTransaction(database);
+}
+
+MapDelta ReadSnapshotInTransaction(sqlite::Database* database) {
   MapDelta snapshot;
   snapshot.is_snapshot = true;
   ReadSession(database, &snapshot);

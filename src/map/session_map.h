@@ -15,4 +15,7 @@ void ApplyDelta(sqlite::Database* database, const MapDelta& delta);
 // The whole map under the number of the last delta applied.
 MapDelta ReadSnapshot(sqlite::Database* database);
 
+// The same for a caller that has a ReadTransaction of its own, in which it reads more.
+MapDelta ReadSnapshotInTransaction(sqlite::Database* database);
+
 }  // namespace plumb

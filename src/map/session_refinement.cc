@@ -173,13 +173,18 @@ void DeleteRefinement(sqlite::Database* database) {
   transaction.Commit();
 }
 
+bool HasRefinement(sqlite::Database* database) {
+  return HasTables(database) && database->QueryInt("SELECT count(*) FROM refinement") == 1;
+}
+
+// In one transaction: another program may put a refinement in place of the one that is being read.
 std::optional<MapDelta> ReadRefinedSnapshot(sqlite::Database* database) {
+  const sqlite::ReadTransaction transaction(database);
   if (!HasTables(database)) return std::nullopt;
   const auto base = database->QueryInt("SELECT base_sequence FROM refinement");
   if (!base) return std::nullopt;
-  MapDelta snapshot = ReadSnapshot(database);
+  MapDelta snapshot = ReadSnapshotInTransaction(database);
   if (std::int64_t{snapshot.sequence} != *base) return std::nullopt;
-  const sqlite::ReadTransaction transaction(database);
   if (const auto lens = ReadLens(database)) snapshot.lens = lens;
   MoveViews(database, &snapshot.views_set);
   const std::set<std::uint32_t> landmarks_out = MoveLandmarks(database, &snapshot.landmarks_set);

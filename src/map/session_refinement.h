@@ -18,6 +18,9 @@ void WriteRefinement(sqlite::Database* database, const MapDelta& delta);
 
 void DeleteRefinement(sqlite::Database* database);
 
+// Also if it is of an earlier map.
+bool HasRefinement(sqlite::Database* database);
+
 // Nothing if there is none, or the map has changed since.
 std::optional<MapDelta> ReadRefinedSnapshot(sqlite::Database* database);
 

@@ -129,6 +129,8 @@ void SessionStore::SaveRefinement(const MapDelta& delta) {
 
 void SessionStore::DropRefinement() { DeleteRefinement(&impl_->database_); }
 
+bool SessionStore::HasRefinement() const { return plumb::HasRefinement(&impl_->database_); }
+
 std::optional<MapDelta> SessionStore::RefinedSnapshot() const {
   return ReadRefinedSnapshot(&impl_->database_);
 }

@@ -153,22 +153,34 @@ struct Explanation {
   double explained = 0.0;                                     // Share of the cells' variance.
 };
 
+// Of each ID, the sum of the squares of its code blurred by the leak; its rotations have the same.
+Eigen::VectorXd SquaredLengths(int num_ids, double leak) {
+  Eigen::VectorXd lengths2(num_ids);
+  for (int id = 0; id < num_ids; ++id) {
+    const Cells code = AllCodes().row(id * kNumCodeBits).transpose();
+    lengths2(id) = Leak(code, leak).square().sum();
+  }
+  return lengths2;
+}
+
 // Explains the cells that begin at sample `start` by every code at every rotation, blurred by the
 // leak: by least squares over the code's contrast. Blurring the cells instead of the codes gives
 // the same products, for the leak is symmetric.
-void ExplainAt(const Unrolled& stripe, int start, double leak, std::vector<Explanation>* by_id) {
+void ExplainAt(const Unrolled& stripe,
+               int start,
+               double leak,
+               const Eigen::VectorXd& lengths2,
+               std::vector<Explanation>* by_id) {
   const Cells cells = BinCells(stripe, start);
   const Cells from_mean = cells - cells.mean();
   const double total = from_mean.square().sum();
-  const CodeTable& codes = AllCodes();
-  const Eigen::VectorXd products = codes * Leak(from_mean, leak).matrix();
+  const Eigen::VectorXd products = AllCodes() * Leak(from_mean, leak).matrix();
   for (std::size_t id = 0; id < by_id->size(); ++id) {
     const auto first = static_cast<Eigen::Index>(id) * kNumCodeBits;
-    const Cells code = codes.row(first).transpose();
     Eigen::Index rotation = 0;
     const double product = products.segment<kNumCodeBits>(first).maxCoeff(&rotation);
-    const double length2 = Leak(code, leak).square().sum();
-    const double residual = total - std::pow(std::max(0.0, product), 2) / length2;
+    const double residual =
+        total - std::pow(std::max(0.0, product), 2) / lengths2(static_cast<Eigen::Index>(id));
     if (residual >= (*by_id)[id].residual) continue;
     (*by_id)[id] = {
         start, static_cast<int>(rotation), residual, 1.0 - residual / (total + kTinyVariance)};
@@ -210,7 +222,10 @@ std::optional<CodeReading> ReadCode(const MarkerDetectorOptions& options,
   const MarkerCodebook& codebook = MarkerCodebook::Get();
   std::vector<Explanation> by_id(static_cast<std::size_t>(codebook.size()));
   const int num_starts = search.is_upright ? 1 : kSamplesPerCell;
-  for (int start = 0; start < num_starts; ++start) ExplainAt(stripe, start, leak, &by_id);
+  const Eigen::VectorXd lengths2 = SquaredLengths(codebook.size(), leak);
+  for (int start = 0; start < num_starts; ++start) {
+    ExplainAt(stripe, start, leak, lengths2, &by_id);
+  }
   const auto best = std::min_element(by_id.begin(), by_id.end(), [](const auto& a, const auto& b) {
     return a.residual < b.residual;
   });

@@ -2,15 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <Eigen/Core>
 #include <cstdint>
 #include <map>
-#include <memory>
-#include <type_traits>
 #include <vector>
 
+#include "common/embree_handle.h"
 #include "plumbline/surface/mesh_delta.h"
 
 namespace plumb::internal {
@@ -43,18 +40,8 @@ class Occluders {
                   std::vector<char>* is_hidden) const;
 
  private:
-  template <auto kRelease>
-  struct Releaser {
-    template <typename T>
-    void operator()(T* handle) const {
-      kRelease(handle);
-    }
-  };
-  using Device = std::unique_ptr<std::remove_pointer_t<RTCDevice>, Releaser<&rtcReleaseDevice>>;
-  using Scene = std::unique_ptr<std::remove_pointer_t<RTCScene>, Releaser<&rtcReleaseScene>>;
-
-  Device device_;
-  Scene scene_;
+  EmbreeDevice device_;
+  EmbreeScene scene_;
   std::map<BlockId, unsigned> geometry_of_block_;
 };
 

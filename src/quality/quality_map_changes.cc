@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a step changes: views, lens, blocks.
-#include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 #include "plumbline/common/options.h"
@@ -20,13 +18,9 @@ bool IsSame(const Rigid3& a, const Rigid3& b) {
   return a.rotation.coeffs() == b.rotation.coeffs() && a.translation == b.translation;
 }
 
-bool IsSame(const MeshBlock& a, const MeshBlock& b) {
-  const auto is_same = [](const MeshVertex& v, const MeshVertex& w) {
-    return v.landmark == w.landmark && v.position_in_map == w.position_in_map && v.color == w.color;
-  };
-  return a.faces == b.faces &&
-         std::equal(
-             a.vertices.begin(), a.vertices.end(), b.vertices.begin(), b.vertices.end(), is_same);
+bool IsSame(const Camera& a, const Camera& b) {
+  return a.width_px() == b.width_px() && a.height_px() == b.height_px() && a.model() == b.model() &&
+         a.lens() == b.lens();
 }
 
 Eigen::AlignedBox3d BoxOf(const MeshBlock& block) {
@@ -46,13 +40,8 @@ QualityMap::Impl::Impl(const QualityOptions& options)
 
 QualityUpdate QualityMap::Impl::SetCamera(const Camera& camera) {
   const Stopwatch stopwatch;
-  camera_ = camera;
-  lens_ = std::make_shared<const internal::Lens>(camera);
-  for (const auto& [photo, cam_from_map] : views_) {
-    ForgetSight(photo);
-    sights_.emplace(photo, internal::Sight(lens_, cam_from_map));
-    changed_views_.insert(photo);
-  }
+  given_camera_ = camera;
+  UseCamera();
   LookAnew();
   QualityUpdate update = Finish();
   update.seconds = stopwatch.Seconds();
@@ -71,17 +60,26 @@ QualityUpdate QualityMap::Impl::Apply(const MapDelta& map_delta, const MeshDelta
   return update;
 }
 
+// The lens may be known before the camera is. An impossible one is left out: the lens as known
+// before is the better guess.
 void QualityMap::Impl::ApplyLens(const MapDelta& delta) {
-  if (!delta.lens || !camera_ || camera_->lens() == *delta.lens) return;
-  try {
-    const Camera& known = *camera_;
-    camera_ = Camera(known.name(), known.width_px(), known.height_px(), known.model(), *delta.lens);
-  } catch (const std::invalid_argument&) {
-    return;  // The lens as known before is the better guess.
+  if (delta.is_snapshot && !delta.lens) refined_lens_.reset();
+  if (delta.lens && (!given_camera_ || given_camera_->WithLens(*delta.lens))) {
+    refined_lens_ = delta.lens;
   }
-  lens_ = std::make_shared<const internal::Lens>(*camera_);
-  const std::map<PhotoId, Rigid3> views = std::move(views_);
-  views_.clear();
+  UseCamera();
+}
+
+// Looks at everything anew if the camera is another one than before.
+void QualityMap::Impl::UseCamera() {
+  if (!given_camera_) return;
+  const auto refined =
+      refined_lens_ ? given_camera_->WithLens(*refined_lens_) : std::optional<Camera>();
+  const Camera& camera = refined ? *refined : *given_camera_;
+  if (camera_ && IsSame(*camera_, camera)) return;
+  camera_ = camera;
+  lens_ = std::make_shared<const internal::Lens>(camera);
+  const std::map<PhotoId, Rigid3> views = std::exchange(views_, {});
   for (const auto& [photo, cam_from_map] : views) SetView({photo, {}, {}, cam_from_map});
 }
 
@@ -136,7 +134,7 @@ void QualityMap::Impl::ApplyMesh(const MeshDelta& delta) {
 
 void QualityMap::Impl::SetBlock(const MeshBlock& block) {
   const auto known = blocks_.find(block.id);
-  if (known != blocks_.end() && IsSame(known->second.mesh, block)) return;
+  if (known != blocks_.end() && known->second.mesh == block) return;
   RemoveBlock(block.id);
   if (block.faces.empty()) return;
   QualityBlock& stored = blocks_[block.id];

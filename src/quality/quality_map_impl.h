@@ -41,6 +41,7 @@ class QualityMap::Impl {
 
   void ApplyViews(const MapDelta& delta);
   void ApplyLens(const MapDelta& delta);
+  void UseCamera();
   void SetView(const ViewState& view);
   void RemoveView(PhotoId photo);
   void ForgetSight(PhotoId photo);
@@ -60,7 +61,9 @@ class QualityMap::Impl {
   QualityUpdate Finish();
 
   QualityOptions options_;
-  std::optional<Camera> camera_;
+  std::optional<Camera> given_camera_;                  // As calibrated.
+  std::optional<LensParameters<double>> refined_lens_;  // As the map has it.
+  std::optional<Camera> camera_;                        // Of both, what is used.
   std::shared_ptr<const internal::Lens> lens_;
   std::map<PhotoId, Rigid3> views_;
   std::map<PhotoId, internal::Sight> sights_;  // Empty while there is no camera.

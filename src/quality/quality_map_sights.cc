@@ -91,7 +91,6 @@ void QualityMap::Impl::LookPast(PhotoId photo, const Sight& sight) {
 
 void QualityMap::Impl::MakeRow(const BlockId& id, PhotoId photo, const Sight& sight) {
   const std::vector<FaceShape>& shapes = blocks_.at(id).shapes;
-  update_.num_faces_tested += shapes.size();
   SightRow row(shapes.size(), 0.0F);
   std::vector<std::uint32_t> faces;
   for (std::uint32_t i = 0; i < shapes.size(); ++i) {
@@ -180,7 +179,6 @@ QualityUpdate QualityMap::Impl::Finish() {
     }
   }
   UpdateNoise();
-  update_.num_views_changed = changed_views_.size();
   changed_views_.clear();
   changed_boxes_.clear();
   touched_blocks_.clear();

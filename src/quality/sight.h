@@ -42,7 +42,6 @@ class Sight {
  public:
   Sight(std::shared_ptr<const Lens> lens, const Rigid3& cam_from_map);
 
-  const Rigid3& cam_from_map() const { return cam_from_map_; }
   const Eigen::Vector3d& eye_in_map() const { return eye_in_map_; }
 
   // False only if no point of the ball is in the photo.

@@ -380,7 +380,7 @@ void CameraIngest::Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
   for (const std::string& folder : folders_) status.add("photos in", folder);
   status.add("images waiting for the disk", images_.size());
   status.add("images lost", num_images_lost_);
-  status.add("photos taken", intake_.photos().size());
+  status.add("photos taken", intake_.num_photos());
   status.add("seconds behind the camera", SecondsBehind());
   status.add("photos waiting", window_.num_waiting());
   status.add("photos in flight", window_.num_in_flight());

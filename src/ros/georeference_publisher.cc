@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "ros/mesh_drawing.h"
 #include "ros/target_drawing.h"
 
 namespace plumb::ros_adapter {
@@ -50,8 +51,10 @@ void GeoreferencePublisher::Publish(const plumbline::Georeference& georeference)
   published_ = georeference;
   const auto targets = DrawTargets(DrawingOptions(options_), georeference);
   if (targets.markers != published_targets_.markers) {
-    targets_publisher_.publish(WithRemovals(published_targets_, targets));
     published_targets_ = targets;
+    visualization_msgs::MarkerArray drawing = targets;
+    drawing.markers.insert(drawing.markers.begin(), DeleteAll(georeference.header));
+    targets_publisher_.publish(drawing);
   }
   BroadcastMap();
 }

@@ -178,6 +178,7 @@ std::string GeoreferencerRos::LoadSurveyFile(const std::string& path,
 void GeoreferencerRos::UnloadSurvey() {
   survey_.reset();
   survey_trouble_.clear();
+  num_logged_.clear();
   if (georeferencer_) georeferencer_->ClearSurvey();
   has_news_ = true;
 }

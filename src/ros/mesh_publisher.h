@@ -27,7 +27,7 @@ struct MeshLook {
 
 // Tells the eye of the mesh: `mesh_<layer>` and `legend_<layer>` of each layer, `gap_markers` and
 // `refused_photos`. A layer costs nothing while nobody listens to it; who begins to listen
-// gets all of it. Call from one thread.
+// gets all of it. One call at a time.
 class MeshPublisher {
  public:
   MeshPublisher(const ros::NodeHandle& handle, const std::string& map_frame_id);

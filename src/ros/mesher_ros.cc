@@ -47,6 +47,7 @@ MesherRos::MesherRos(const ros::NodeHandle& handle, const MesherRosOptions& opti
   subscribers_ = {handle_.subscribe("session_camera", 1, &MesherRos::OnCamera, this),
                   handle_.subscribe("metres_per_map_unit", 1, &MesherRos::OnScale, this),
                   handle_.subscribe("photo_verdict", kDeltaQueue, &MesherRos::OnVerdict, this),
+                  handle_.subscribe("stored_photos", 1, &MesherRos::OnStoredPhotos, this),
                   handle_.subscribe("map_delta", kDeltaQueue, &MesherRos::OnMapDelta, this)};
   diagnostics_.setHardwareID("mesher");
   diagnostics_.add("mesher", this, &MesherRos::Diagnose);
@@ -62,7 +63,7 @@ MesherRos::MesherRos(const ros::NodeHandle& handle, const MesherRosOptions& opti
 MesherRos::~MesherRos() { service_spinner_.stop(); }
 
 void MesherRos::OnMapDelta(const plumbline::MapDelta& msg) {
-  const std::optional<MapDelta> delta = FromMapDeltaMsg(msg);
+  std::optional<MapDelta> delta = FromMapDeltaMsg(msg);
   if (!delta) {
     ROS_ERROR_THROTTLE(
         kComplainEvery_s,
@@ -73,7 +74,15 @@ void MesherRos::OnMapDelta(const plumbline::MapDelta& msg) {
   }
   const ros::Time stamp = msg.header.stamp;
   // One that finds no room is missed: the next one shows the gap, and it is caught up with.
-  worker_.TryPush([this, delta = *delta, stamp] { Apply(delta, stamp); });
+  worker_.TryPush([this, delta = *std::move(delta), stamp] { Apply(delta, stamp); });
+}
+
+// A mapper that was restarted may count on from less than was heard.
+void MesherRos::OnStoredPhotos(const plumbline::StoredPhotos& msg) {
+  worker_.Push([this, started = msg.mapper_started] {
+    if (!mapper_started_.isZero() && started != mapper_started_) has_map_ = false;
+    mapper_started_ = started;
+  });
 }
 
 void MesherRos::OnCamera(const sensor_msgs::CameraInfo& msg) {
@@ -98,7 +107,7 @@ void MesherRos::OnScale(const std_msgs::Float64& msg) {
 }
 
 void MesherRos::OnVerdict(const plumbline::PhotoVerdict& msg) {
-  worker_.TryPush([this, msg] {
+  worker_.Push([this, msg] {
     const PhotoId photo{msg.sequence};
     const bool is_refused = msg.status == plumbline::PhotoVerdict::REFUSED;
     if (!is_refused && refused_.erase(photo) == 0) return;
@@ -136,6 +145,8 @@ void MesherRos::BeginAnew() {
 }
 
 void MesherRos::Apply(const MapDelta& delta, const ros::Time& stamp) {
+  if (!has_map_ && !delta.is_snapshot) CatchUp();
+  if (!has_map_ && !delta.is_snapshot) return;  // The timer asks for the whole again.
   const bool is_old = !delta.is_snapshot && delta.sequence <= surface_->map_sequence();
   if (is_old && delta.sequence > 1) return;  // A snapshot had it.
   if (!is_old && TryApply(delta, stamp)) return;
@@ -170,7 +181,9 @@ void MesherRos::CatchUp() {
   }
   const std::optional<MapDelta> snapshot = FromMapDeltaMsg(request.response.snapshot);
   if (!snapshot || !snapshot->is_snapshot) {
-    throw std::runtime_error("get_map gave a snapshot that makes no sense");
+    ROS_ERROR_THROTTLE(kComplainEvery_s, "get_map gave a map that makes no sense; asking again");
+    has_map_ = false;
+    return;
   }
   TryApply(*snapshot, {});
 }
@@ -203,8 +216,8 @@ void MesherRos::TellNow() {
   is_told_ = true;
   publisher_.PublishRefused(refused_, quality_->views());
   if (!quality_->camera()) return;
-  const double block_side = options_.surface.block_side_m / options_.surface.metres_per_map_unit;
-  const std::vector<Gap> gaps = FindGaps(look_.gaps, quality_->blocks(), look_.measure, block_side);
+  const std::vector<Gap> gaps =
+      FindGaps(look_.gaps, quality_->blocks(), look_.measure, options_.surface.block_side);
   num_gaps_ = gaps.size();
   plumbline::Gaps msg = ToGapsMsg(gaps, look_.gaps, look_.measure, NewestView());
   msg.header = publisher_.HeaderNow();
@@ -275,11 +288,9 @@ bool MesherRos::OnSetDisplay(plumbline::SetMeshDisplay::Request& request,
   if (!problems.empty()) return true;
   const bool is_painted_anew = look.palette != look_.palette;
   look_ = look;
-  worker_.TryPush([this, is_painted_anew] {
-    if (is_painted_anew) publisher_.Repaint(*quality_, look_);
-    publisher_.PublishLegends(look_);
-    is_told_ = false;
-  });
+  if (is_painted_anew) publisher_.Repaint(*quality_, look_);
+  publisher_.PublishLegends(look_);
+  is_told_ = false;
   return true;
 }
 

@@ -8,6 +8,7 @@
 #include <plumbline/MeshDelta.h>
 #include <plumbline/PhotoVerdict.h>
 #include <plumbline/SetMeshDisplay.h>
+#include <plumbline/StoredPhotos.h>
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
@@ -42,6 +43,7 @@ class MesherRos {
   using Work = std::function<void()>;
 
   void OnMapDelta(const plumbline::MapDelta& msg);
+  void OnStoredPhotos(const plumbline::StoredPhotos& msg);
   void OnCamera(const sensor_msgs::CameraInfo& msg);
   void OnScale(const std_msgs::Float64& msg);
   void OnVerdict(const plumbline::PhotoVerdict& msg);
@@ -83,7 +85,8 @@ class MesherRos {
   std::optional<Camera> camera_;
   std::map<PhotoId, RefusedPhoto> refused_;
   std::uint32_t sequence_ = 0;
-  bool has_map_ = false;
+  ros::Time mapper_started_;
+  bool has_map_ = false;  // That of the mapper as it runs now.
   bool is_told_ = false;  // Gaps and refused photos show what there is.
   std::size_t num_gaps_ = 0;
   Latency surface_time_;

@@ -210,6 +210,11 @@ void PhotoIntake::Append(const TakenPhoto& photo) {
   sequence_of_name_[photo.name] = photo.sequence;
 }
 
+std::size_t PhotoIntake::num_photos() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return photos_.size();
+}
+
 std::vector<TakenPhoto> PhotoIntake::photos() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   std::vector<TakenPhoto> photos;

@@ -59,6 +59,7 @@ class PhotoIntake {
 
   // All that was ever taken up, by sequence.
   std::vector<TakenPhoto> photos() const;
+  std::size_t num_photos() const;
   TakenPhoto photo(std::uint32_t sequence) const;
 
   // Throws std::runtime_error naming the file if it cannot be read.

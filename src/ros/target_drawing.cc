@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
-#include <set>
 #include <sstream>
 #include <utility>
 
@@ -221,6 +220,7 @@ class Drawer {
     Summarise("control", of.num_control, of.control_mean_mm, of.control_max_mm, &text);
     Summarise("check", of.num_check, of.check_mean_mm, of.check_max_mm, &text);
     std::string lines = text.str();
+    if (lines.empty()) return;
     lines.pop_back();
     Eigen::Vector3d top = box_.center();
     top.z() = box_.max().z() + size_ + 3.0 * text_size_;
@@ -240,23 +240,6 @@ class Drawer {
 visualization_msgs::MarkerArray DrawTargets(const TargetDrawingOptions& options,
                                             const plumbline::Georeference& georeference) {
   return Drawer(options, georeference).Draw();
-}
-
-visualization_msgs::MarkerArray WithRemovals(const visualization_msgs::MarkerArray& before,
-                                             const visualization_msgs::MarkerArray& drawing) {
-  std::set<std::pair<std::string, int>> drawn;
-  for (const Marker& marker : drawing.markers) drawn.insert({marker.ns, marker.id});
-  visualization_msgs::MarkerArray all = drawing;
-  for (const Marker& marker : before.markers) {
-    if (drawn.count({marker.ns, marker.id}) != 0) continue;
-    Marker removal;
-    removal.header = marker.header;
-    removal.ns = marker.ns;
-    removal.id = marker.id;
-    removal.action = Marker::DELETE;
-    all.markers.push_back(removal);
-  }
-  return all;
 }
 
 }  // namespace plumb::ros_adapter

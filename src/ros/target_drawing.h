@@ -23,8 +23,4 @@ struct TargetDrawingOptions {
 visualization_msgs::MarkerArray DrawTargets(const TargetDrawingOptions& options,
                                             const plumbline::Georeference& georeference);
 
-// `drawing`, and the removal of what only `before` holds.
-visualization_msgs::MarkerArray WithRemovals(const visualization_msgs::MarkerArray& before,
-                                             const visualization_msgs::MarkerArray& drawing);
-
 }  // namespace plumb::ros_adapter

@@ -26,11 +26,12 @@ std::optional<plumbline::Photo> UnsearchedPhotos::Next(
     const std::function<bool(std::uint32_t)>& is_known) {
   // Which comes with the first camera_info, if it comes over a topic.
   if (!std::filesystem::exists(session_folder_ + "/camera.yaml")) return std::nullopt;
+  const Camera camera = ReadCameraYaml(session_folder_ + "/camera.yaml");  // May be mended yet.
   ReadLedger();
   for (const TakenPhoto& photo : photos_) {
     if (unreadable_.count(photo.sequence) != 0 || is_known(photo.sequence)) continue;
     try {
-      return Read(photo);
+      return Read(photo, camera);
     } catch (const std::runtime_error&) {
       unreadable_.insert(photo.sequence);
       throw;
@@ -48,8 +49,7 @@ void UnsearchedPhotos::ReadLedger() {
   ledger_size_ = size;
 }
 
-plumbline::Photo UnsearchedPhotos::Read(const TakenPhoto& photo) const {
-  const Camera camera = ReadCameraYaml(session_folder_ + "/camera.yaml");
+plumbline::Photo UnsearchedPhotos::Read(const TakenPhoto& photo, const Camera& camera) const {
   WirePhoto wire;
   wire.id = PhotoId{photo.sequence};
   wire.name = photo.name;

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "plumbline/camera/camera.h"
 #include "ros/photo_intake.h"
 
 namespace plumb::ros_adapter {
@@ -28,7 +29,7 @@ class UnsearchedPhotos {
 
  private:
   void ReadLedger();
-  plumbline::Photo Read(const TakenPhoto& photo) const;
+  plumbline::Photo Read(const TakenPhoto& photo, const Camera& camera) const;
 
   std::string session_folder_;
   std::uintmax_t ledger_size_ = 0;

@@ -206,6 +206,7 @@ rviz::Display* FlightPanel::DisplayOf(const std::string& layer) {
   rviz::DisplayGroup* group = vis_manager_->getRootDisplayGroup();
   for (int i = 0; i < group->numDisplays(); ++i) {
     rviz::Display* display = group->getDisplayAt(i);
+    if (display->getClassId() != "rviz/MarkerArray") continue;  // Others have no such topic.
     if (display->subProp("Marker Topic")->getValue().toString() == topic) return display;
   }
   return nullptr;
@@ -235,7 +236,8 @@ void FlightPanel::OnSave() {
   save_answer_ = InThread([service]() -> Answer {
     std_srvs::Trigger request;
     if (!ros::service::call(service, request)) return {false, "The mapper does not answer."};
-    return {request.response.success != 0, "Saved: " + request.response.message};
+    const bool is_saved = request.response.success != 0;
+    return {is_saved, (is_saved ? "Saved: " : "") + request.response.message};
   });
 }
 

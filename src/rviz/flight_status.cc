@@ -40,7 +40,8 @@ void FlightStatus::OnVerdict(const plumbline::PhotoVerdict& verdict) {
 void FlightStatus::OnDiagnostics(const diagnostic_msgs::DiagnosticArray& diagnostics,
                                  double now_s) {
   for (const diagnostic_msgs::DiagnosticStatus& status : diagnostics.status) {
-    for (const char* const node : {kIngest, kMapper, "mesher"}) {
+    for (const char* const node :
+         {kIngest, kMapper, "marker_detector", "mesher", "georeferencer"}) {
       if (status.hardware_id != node) continue;
       NodeStatus& known = nodes_[node];
       known.heard_s = now_s;

@@ -81,7 +81,10 @@ BundleConstraints MovedWithMap(const BundleConstraints& constraints,
       track.survey.reset();
     }
   }
-  if (!now_from_before) return moved;
+  if (!now_from_before) {
+    moved.centers.clear();
+    return moved;
+  }
   for (CenterPrior& prior : moved.centers) prior.center = Moved(*now_from_before, prior.center);
   return moved;
 }

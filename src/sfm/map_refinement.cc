@@ -3,24 +3,10 @@
 #include "plumbline/sfm/map_refinement.h"
 
 #include <optional>
-#include <stdexcept>
 
 #include "sfm/expander.h"
 
 namespace plumb {
-namespace {
-
-// Nothing if no camera can have that lens: too few photos may bend it out of shape.
-std::optional<Camera> WithLens(const Camera& camera, const LensParameters<double>& lens) {
-  try {
-    return Camera(camera.name(), camera.width_px(), camera.height_px(), camera.model(), lens);
-  } catch (const std::invalid_argument&) {
-    return std::nullopt;
-  }
-}
-
-}  // namespace
-
 MapRefinement RefineMap(const RefinementOptions& options,
                         const Camera& camera,
                         const BundleConstraints& constraints,
@@ -35,7 +21,8 @@ MapRefinement RefineMap(const RefinementOptions& options,
                                             options.bundle.function_tolerance,
                                             nullptr,
                                             &problem);
-    const std::optional<Camera> refined = WithLens(camera, problem.lens);
+    // Too few photos may bend the lens out of shape.
+    const std::optional<Camera> refined = camera.WithLens(problem.lens);
     if (!report.is_usable || !refined) return result;
     ApplyBundle(problem, map);
     if (refined->lens() != result.camera.lens()) map->SetLens(refined->lens());

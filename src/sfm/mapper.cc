@@ -131,12 +131,9 @@ void Mapper::Impl::TakeBackground() {
 // False if no camera can have that lens: a bundle of too few views may bend it out of shape.
 bool Mapper::Impl::AdoptLens(const LensParameters<double>& lens) {
   if (lens == camera_.lens()) return true;
-  try {
-    camera_ =
-        Camera(camera_.name(), camera_.width_px(), camera_.height_px(), camera_.model(), lens);
-  } catch (const std::invalid_argument&) {
-    return false;
-  }
+  std::optional<Camera> camera = camera_.WithLens(lens);
+  if (!camera) return false;
+  camera_ = *std::move(camera);
   map_.SetLens(lens);
   for (auto& [photo, record] : records_) UpdateRays(camera_, &record);
   return true;

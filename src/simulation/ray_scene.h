@@ -2,15 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <Eigen/Core>
 #include <array>
 #include <limits>
-#include <memory>
 #include <optional>
-#include <type_traits>
 #include <vector>
+
+#include "common/embree_handle.h"
 
 namespace plumb::internal {
 
@@ -54,16 +52,6 @@ class RayScene {
                                       double max_along) const;
 
  private:
-  template <auto kRelease>
-  struct Releaser {
-    template <typename T>
-    void operator()(T* handle) const {
-      kRelease(handle);
-    }
-  };
-  using Device = std::unique_ptr<std::remove_pointer_t<RTCDevice>, Releaser<&rtcReleaseDevice>>;
-  using Scene = std::unique_ptr<std::remove_pointer_t<RTCScene>, Releaser<&rtcReleaseScene>>;
-
   void AddTriangles();
   double PlaneDistance(int triangle,
                        const Eigen::Vector3d& origin,
@@ -71,8 +59,8 @@ class RayScene {
 
   std::vector<Triangle3> triangles_;
   double scene_radius_ = 0.0;  // Of a sphere around the origin that holds all.
-  Device device_;
-  Scene scene_;
+  EmbreeDevice device_;
+  EmbreeScene scene_;
 };
 
 }  // namespace plumb::internal

@@ -25,11 +25,6 @@ std::int32_t Sum(const std::array<std::uint16_t, 4>& counts) {
   return std::accumulate(counts.begin(), counts.end(), 0);
 }
 
-// Infinite cells have no node and are free.
-bool IsFree(const DynamicCut& cut, Cell cell) {
-  return cell->info().node == kNoCutNode || cut.IsAtSource(cell->info().node);
-}
-
 // Whether beyond face `i` the world ends, and rays leave it there.
 bool IsOpenHull(const Triangulation& triangulation, Cell cell, int i) {
   return triangulation.is_infinite(cell->neighbor(i)) &&

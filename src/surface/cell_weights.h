@@ -26,7 +26,12 @@ std::int32_t TerminalOf(const SurfaceOptions& options,
 // thin on the other is no surface.
 std::int32_t FaceWeightOf(const SurfaceOptions& options, Cell cell, int i);
 
-// Energy of labels that call a cell free if its node is at the source. Walks over all cells.
+// Infinite cells have no node and are free.
+inline bool IsFree(const DynamicCut& cut, Cell cell) {
+  return cell->info().node == kNoCutNode || cut.IsAtSource(cell->info().node);
+}
+
+// Energy of the labels that IsFree gives. Walks over all cells.
 std::int64_t EnergyOf(const SurfaceOptions& options,
                       const Triangulation& triangulation,
                       const DynamicCut& cut);

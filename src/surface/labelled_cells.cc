@@ -3,7 +3,6 @@
 #include "surface/labelled_cells.h"
 
 #include "plumbline/common/stopwatch.h"
-#include "surface/cell_weights.h"
 #include "surface/ray_cast.h"
 
 namespace plumb {

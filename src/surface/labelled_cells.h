@@ -9,6 +9,7 @@
 #include "plumbline/map/map_delta.h"
 #include "plumbline/surface/surface_options.h"
 #include "plumbline/surface/surface_report.h"
+#include "surface/cell_weights.h"
 #include "surface/dynamic_cut.h"
 #include "surface/ray_scene.h"
 #include "surface/tetrahedra.h"
@@ -24,9 +25,7 @@ class LabelledCells {
   void Apply(const MapDelta& delta, SurfaceReport* report);
 
   // Infinite cells are free.
-  bool IsFree(Cell cell) const {
-    return cell->info().node == kNoCutNode || cut_.IsAtSource(cell->info().node);
-  }
+  bool IsFree(Cell cell) const { return plumb::IsFree(cut_, cell); }
   std::int64_t Energy() const;
 
   const RayScene& scene() const { return scene_; }
@@ -40,7 +39,6 @@ class LabelledCells {
   const std::vector<Slot>& redrawn() const { return redrawn_; }
 
  private:
-  void ChangeTetrahedra(const SceneChanges& changes, SurfaceReport* report);
   void Rebuild();
   void InsertSlots(const std::vector<Slot>& slots);
   void Cast(const std::vector<Slot>& recast, SurfaceReport* report);

@@ -58,13 +58,6 @@ std::vector<Slot> RayScene::PlacedSlots() const {
   return slots;
 }
 
-double RayScene::PitchOf(Slot slot) const {
-  const SceneLandmark& landmark = landmarks_[slot];
-  return std::ldexp(
-      1.0,
-      PitchExponent(landmark.distance_exponent, options_.landmark_lattice_bits, landmark.position));
-}
-
 void RayScene::RaysOf(Slot slot, std::vector<SceneRay>* rays) const {
   rays->clear();
   const SceneLandmark& landmark = landmarks_[slot];
@@ -339,7 +332,7 @@ void RayScene::Settle(Slot slot, SceneChanges* changes) {
   } else if (has_new_rays || old_exponent != placement.distance_exponent || has_moved_camera) {
     changes->recast.push_back(slot);
   }
-  if (was_placed && (has_new_color || landmark.mesh_position != old_mesh_position)) {
+  if (!was_placed || has_new_color || landmark.mesh_position != old_mesh_position) {
     changes->redrawn.push_back(slot);
   }
 }

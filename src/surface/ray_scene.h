@@ -29,7 +29,7 @@ struct SceneChanges {
   std::vector<Slot> removed;  // From where they stood. One that moves is also in `inserted`.
   std::vector<Slot> inserted;
   std::vector<Slot> recast;   // They stand where they stood, but their rays are others.
-  std::vector<Slot> redrawn;  // Only what the mesh shows of them changed.
+  std::vector<Slot> redrawn;  // What the mesh shows of them is new or changed.
 };
 
 // Landmarks, cameras and the rays between them, as far as they are usable, on their lattices. A
@@ -47,14 +47,12 @@ class RayScene {
   const Eigen::Vector3d& PlaceOf(Slot slot) const { return landmarks_[slot].place; }
   const Eigen::Vector3d& MeshPositionOf(Slot slot) const { return landmarks_[slot].mesh_position; }
   Rgb ColorOf(Slot slot) const { return landmarks_[slot].color; }
-  double PitchOf(Slot slot) const;
 
   // One for each photo that sees a landmark, in the order of photos.
   void RaysOf(Slot slot, std::vector<SceneRay>* rays) const;
 
   std::size_t num_slots() const { return landmarks_.size(); }
   std::size_t num_placed() const { return num_placed_; }
-  std::size_t num_rays() const { return num_rays_; }
 
  private:
   struct Ray {

@@ -17,16 +17,15 @@ std::uint32_t ArcOf(Cell cell, int i) {
 }
 
 std::int32_t BlockIndex(double position, double side) {
-  constexpr double kLimit = std::numeric_limits<std::int32_t>::max();
+  constexpr double kLimit =
+      std::numeric_limits<std::int32_t>::max() - 2;  // Neighbours have ids too.
   return static_cast<std::int32_t>(std::clamp(std::floor(position / side), -kLimit, kLimit));
 }
 
 }  // namespace
 
 SurfaceMesh::SurfaceMesh(const SurfaceOptions& options)
-    : block_side_(options.block_side_m / options.metres_per_map_unit),
-      support_(options),
-      islands_(options.min_island_faces) {}
+    : block_side_(options.block_side), support_(options), islands_(options.min_island_faces) {}
 
 MeshDelta SurfaceMesh::Update(const LabelledCells& cells) {
   num_checked_ = 0;

@@ -73,6 +73,4 @@ MeshDelta SurfaceMesher::Snapshot() const { return impl_->Snapshot(); }
 
 std::uint32_t SurfaceMesher::map_sequence() const { return impl_->map_sequence(); }
 
-std::int64_t SurfaceMesher::Energy() const { return impl_->cells().Energy(); }
-
 }  // namespace plumb

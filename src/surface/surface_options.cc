@@ -35,9 +35,7 @@ std::vector<std::string> SurfaceOptions::Problems() const {
                    mesh_lattice_bits);
   problems.Require(max_edge_ratio > 0.0, "max_edge_ratio", "above 0", max_edge_ratio);
   problems.Require(min_island_faces >= 0, "min_island_faces", "at least 0", min_island_faces);
-  problems.Require(
-      metres_per_map_unit > 0.0, "metres_per_map_unit", "above 0", metres_per_map_unit);
-  problems.Require(block_side_m > 0.0, "block_side_m", "above 0", block_side_m);
+  problems.Require(block_side > 0.0, "block_side", "above 0", block_side);
   return problems.Take();
 }
 

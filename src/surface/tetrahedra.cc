@@ -64,21 +64,21 @@ void Tetrahedra::ClearChanges() {
   bereft_.clear();
 }
 
-bool Tetrahedra::InsertOne(const Place& place) {
+void Tetrahedra::InsertOne(const Place& place) {
   if (vertices_.size() <= place.slot) {
     vertices_.resize(place.slot + 1);
     is_touched_.resize(place.slot + 1, 0);
   }
   if (!HasCells()) {
     InsertFlat(place);
-    return true;
+    return;
   }
   const SurfaceKernel::Point_3 point = ToCgal(place.point);
   Triangulation::Locate_type type = Triangulation::CELL;
   int i = 0;
   int j = 0;
   const Cell start = triangulation_.locate(point, type, i, j, hint_);
-  if (type == Triangulation::VERTEX) return false;
+  if (type == Triangulation::VERTEX) return;
 
   std::vector<Cell> conflicts;
   Triangulation::Facet face;
@@ -99,7 +99,6 @@ bool Tetrahedra::InsertOne(const Place& place) {
   triangulation_.incident_cells(vertex, std::back_inserter(incident));
   for (const Cell cell : incident) Create(cell);
   hint_ = vertex->cell();
-  return true;
 }
 
 // The first points, or points in one plane; cells are there only once a point lies off it.

@@ -84,7 +84,7 @@ class Tetrahedra {
   void ClearChanges();
 
  private:
-  bool InsertOne(const Place& place);
+  void InsertOne(const Place& place);
   void RemoveOne(Slot slot);
   void InsertFlat(const Place& place);
   void Destroy(Cell cell);

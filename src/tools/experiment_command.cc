@@ -2,27 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <unistd.h>
 
-#include <csignal>
 #include <iostream>
 #include <memory>
 
 #include "tools/commands.h"
 #include "tools/experiment.h"
+#include "tools/stop_signal.h"
 
 namespace plumb::tools {
-namespace {
-
-std::atomic<bool> stop_requested{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler writes it");
-
-// The first Ctrl-C ends after the reconstructions in work, the second at once.
-void RequestStop(int signal) {
-  stop_requested = true;
-  std::signal(signal, SIG_DFL);
-}
-
-}  // namespace
-
 void AddExperimentCommand(CLI::App* app, ExitCode* exit_code) {
   CLI::App* experiment =
       app->add_subcommand("experiment", "Measure what a choice of photos and bundle is worth");
@@ -54,10 +41,8 @@ void AddExperimentCommand(CLI::App* app, ExitCode* exit_code) {
   command->add_option("--threads", arguments->num_threads, "Reconstructions at once; 0: all cores")
       ->check(CLI::Range(0, 1024));
   command->callback([arguments, exit_code] {
-    std::signal(SIGINT, RequestStop);
-    std::signal(SIGTERM, RequestStop);
     Console console(&std::cout, ::isatty(STDOUT_FILENO) == 1);
-    *exit_code = RunMultiscaleExperiment(*arguments, stop_requested, &console);
+    *exit_code = RunMultiscaleExperiment(*arguments, StopOnSignal(), &console);
   });
 }
 

@@ -264,7 +264,8 @@ SessionGeoreference GeoreferenceSession(const GeoreferenceArguments& arguments,
 void WriteSessionGeoreference(const GeoreferenceArguments& arguments, Console* console) {
   const Settings settings = ReadSettings(arguments.settings);
   std::optional<SessionStore> store = SessionStore::OpenExisting(arguments.session);
-  if (arguments.refine || store->RefinedSnapshot()) {  // They are to be written.
+  const bool had_refinement = store->HasRefinement();
+  if (arguments.refine || had_refinement) {  // They are to be written.
     store.emplace(SessionStore(arguments.session, store->camera()));
   }
   Georeferencing georeferencing(arguments, settings, *store, store->Snapshot(), console);
@@ -278,7 +279,7 @@ void WriteSessionGeoreference(const GeoreferenceArguments& arguments, Console* c
     PrintLines(result.georeference, console);
     CheckIsUsable(arguments, result.georeference);
     store->SaveRefinement(delta);
-  } else if (store->RefinedSnapshot()) {
+  } else if (had_refinement) {
     store->DropRefinement();
     console->PrintLine("the refinement there was is dropped; --refine makes it anew");
   }

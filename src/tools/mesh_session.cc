@@ -7,6 +7,7 @@
 #include "plumbline/common/stopwatch.h"
 #include "plumbline/export/mesh.h"
 #include "plumbline/surface/surface_mesher.h"
+#include "tools/session_map.h"
 
 namespace plumb::tools {
 namespace {
@@ -36,9 +37,7 @@ Json MeshSession(const SurfaceOptions& options,
                  const std::string& folder) {
   const Stopwatch watch;
   SurfaceMesher mesher(options);
-  MapDelta snapshot = store.Snapshot();
-  snapshot.is_snapshot = true;
-  const SurfaceUpdate update = *mesher.Apply(snapshot);
+  const SurfaceUpdate update = *mesher.Apply(ReadSessionMap(store).snapshot);
   Json report = ToJson(update.report);
   report["blocks"] = update.mesh.blocks.size();
   std::filesystem::create_directories(folder);

@@ -11,9 +11,9 @@
 
 namespace plumb::tools {
 
-// Writes mesh.ply and mesh.obj of the session's map into `folder`, which is made if need be; gives
-// counts, seconds and what was left out. Throws std::runtime_error naming the file and the cause,
-// std::invalid_argument for the options.
+// Writes mesh.ply and mesh.obj of the session's map, refined if it was, into `folder`, which is
+// made if need be; gives counts, seconds and what was left out. Throws std::runtime_error naming
+// the file and the cause, std::invalid_argument for the options.
 nlohmann::ordered_json MeshSession(const SurfaceOptions& options,
                                    const SessionStore& store,
                                    const std::string& folder);

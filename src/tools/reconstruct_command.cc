@@ -2,28 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <unistd.h>
 
-#include <csignal>
 #include <iostream>
 #include <memory>
 #include <string>
 
 #include "tools/commands.h"
 #include "tools/reconstruct.h"
+#include "tools/stop_signal.h"
 
 namespace plumb::tools {
-namespace {
-
-std::atomic<bool> stop_requested{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler writes it");
-
-// The first Ctrl-C ends the run cleanly, the second at once.
-void RequestStop(int signal) {
-  stop_requested = true;
-  std::signal(signal, SIG_DFL);
-}
-
-}  // namespace
-
 void AddReconstructCommand(CLI::App* app, ExitCode* exit_code) {
   CLI::App* command = app->add_subcommand(
       "reconstruct", "Locate the photos of a folder and build the map, as in flight");
@@ -52,10 +39,8 @@ void AddReconstructCommand(CLI::App* app, ExitCode* exit_code) {
                    "name (natural order), reverse, or shuffle:SEED with a whole number")
       ->capture_default_str();
   command->callback([arguments, exit_code] {
-    std::signal(SIGINT, RequestStop);
-    std::signal(SIGTERM, RequestStop);
     Console console(&std::cout, ::isatty(STDOUT_FILENO) == 1);
-    *exit_code = Reconstruct(*arguments, stop_requested, &console);
+    *exit_code = Reconstruct(*arguments, StopOnSignal(), &console);
   });
 }
 

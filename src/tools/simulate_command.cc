@@ -2,28 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <unistd.h>
 
-#include <csignal>
 #include <iostream>
 #include <memory>
 #include <string>
 
 #include "tools/commands.h"
 #include "tools/simulate.h"
+#include "tools/stop_signal.h"
 
 namespace plumb::tools {
-namespace {
-
-std::atomic<bool> stop_requested{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler writes it");
-
-// The first Ctrl-C ends the run cleanly, the second at once.
-void RequestStop(int signal) {
-  stop_requested = true;
-  std::signal(signal, SIG_DFL);
-}
-
-}  // namespace
-
 void AddSimulateCommand(CLI::App* app, FlightBagWriter write_bag, ExitCode* exit_code) {
   CLI::App* command = app->add_subcommand(
       "simulate", "Photos of a simulated facade with its exact truth, as a flight leaves them");
@@ -48,10 +35,8 @@ void AddSimulateCommand(CLI::App* app, FlightBagWriter write_bag, ExitCode* exit
       ->check(CLI::Range(1, 1'000'000));
   command->add_flag("--no-bag", arguments->no_bag, "Write no flight.bag");
   command->callback([arguments, write_bag = std::move(write_bag), exit_code] {
-    std::signal(SIGINT, RequestStop);
-    std::signal(SIGTERM, RequestStop);
     Console console(&std::cout, ::isatty(STDOUT_FILENO) == 1);
-    *exit_code = Simulate(*arguments, write_bag, stop_requested, &console);
+    *exit_code = Simulate(*arguments, write_bag, StopOnSignal(), &console);
   });
 }
 

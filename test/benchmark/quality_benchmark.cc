@@ -5,7 +5,6 @@
 // the paper's size, in time of the processor. Prints JSON.
 //   quality_benchmark PHOTOS LANDMARKS
 #include <algorithm>
-#include <ctime>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -15,6 +14,7 @@
 #include "plumbline/quality/gaps.h"
 #include "plumbline/quality/quality_map.h"
 #include "plumbline/surface/surface_mesher.h"
+#include "test/benchmark/cpu_watch.h"
 #include "test/benchmark/synthetic_flight.h"
 
 namespace plumb {
@@ -37,9 +37,6 @@ void TurnToWall(MapDelta* delta) {
     view.cam_from_map = Rigid3(Eigen::Quaterniond(cam_from_map), -(cam_from_map * center));
   }
 }
-
-// Of all threads; nothing here has more than one.
-double CpuSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 struct Step {
   double surface_s = 0.0;
@@ -82,16 +79,14 @@ int Main(int num_photos, int num_landmarks) {
   std::vector<Step> steps;
   for (MapDelta delta : deltas) {
     TurnToWall(&delta);
-    const double start_s = CpuSeconds();
-    const SurfaceUpdate update = surface.Apply(delta).value();
-    const double surface_end_s = CpuSeconds();
-    const QualityUpdate changed = quality.Apply(delta, update.mesh);
-    const double quality_end_s = CpuSeconds();
-    FindGaps(GapOptions(), quality.blocks(), measure, 1.0);
+    test::CpuWatch watch;
     Step step;
-    step.surface_s = surface_end_s - start_s;
-    step.quality_s = quality_end_s - surface_end_s;
-    step.gaps_s = CpuSeconds() - quality_end_s;
+    const SurfaceUpdate update = surface.Apply(delta).value();
+    step.surface_s = watch.Restart();
+    const QualityUpdate changed = quality.Apply(delta, update.mesh);
+    step.quality_s = watch.Restart();
+    FindGaps(GapOptions(), quality.blocks(), measure, 1.0);
+    step.gaps_s = watch.Restart();
     step.num_rays = static_cast<double>(changed.num_rays);
     step.num_blocks = static_cast<double>(changed.blocks.size());
     steps.push_back(step);
@@ -99,12 +94,13 @@ int Main(int num_photos, int num_landmarks) {
   std::size_t num_faces = 0;
   for (const auto& [id, block] : quality.blocks()) num_faces += block.mesh.faces.size();
   const std::uint64_t bytes = CurrentProcessUsage().peak_memory_bytes - bytes_before;
-  const Json result = {{"photos", steps.size()},
-                       {"faces", num_faces},
-                       {"memory_mib", static_cast<double>(bytes) / 1048576.0},
-                       {"all", Summarize(steps, 0, steps.size())},
-                       {"100_to_200", Summarize(steps, 100, 200)},
-                       {"last_100", Summarize(steps, steps.size() - 100, steps.size())}};
+  const Json result = {
+      {"photos", steps.size()},
+      {"faces", num_faces},
+      {"memory_mib", static_cast<double>(bytes) / 1048576.0},
+      {"all", Summarize(steps, 0, steps.size())},
+      {"100_to_200", Summarize(steps, 100, 200)},
+      {"last_100", Summarize(steps, steps.size() > 100 ? steps.size() - 100 : 0, steps.size())}};
   std::cout << result.dump(1) << '\n';
   return 0;
 }

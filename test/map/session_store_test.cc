@@ -312,6 +312,9 @@ TEST_F(SessionStoreTest, ARefinementIsOfTheMapItWasMadeOf) {
   store.SaveRefinement(refined);
   store.Apply(MakeDelta(2, 1, 3));
   EXPECT_FALSE(store.RefinedSnapshot());
+  EXPECT_TRUE(store.HasRefinement());
+  store.DropRefinement();
+  EXPECT_FALSE(store.HasRefinement());
 }
 
 }  // namespace

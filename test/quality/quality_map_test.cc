@@ -148,11 +148,7 @@ MeshDelta DeltaBetween(const MeshDelta& before, const MeshDelta& after) {
   MeshDelta delta;
   for (const MeshBlock& block : after.blocks) {
     const auto found = old.find(block.id);
-    bool is_same = found != old.end() && found->second.faces == block.faces;
-    for (std::size_t i = 0; is_same && i < block.vertices.size(); ++i) {
-      is_same = block.vertices[i].position_in_map == found->second.vertices[i].position_in_map;
-    }
-    if (!is_same) delta.blocks.push_back(block);
+    if (found == old.end() || !(found->second == block)) delta.blocks.push_back(block);
     if (found != old.end()) old.erase(found);
   }
   for (auto& [id, block] : old) {
@@ -304,6 +300,34 @@ TEST(QualityMap, ARefinedLensCountsAndAnImpossibleOneDoesNot) {
   EXPECT_THAT(map.Apply(delta, {}).blocks, testing::Not(testing::IsEmpty()));
   EXPECT_EQ(map.camera()->lens()[kFx], 400.0);
   ExpectAsByBruteForce(soup, FlyPast(3), 1, map);
+}
+
+TEST(QualityMap, ARefinedLensCountsWheneverTheCameraBecomesKnown) {
+  const Camera camera = test::SmallCamera();
+  LensParameters<double> refined = camera.lens();
+  refined[kFx] *= 1.1;
+  MapDelta map_delta = MapOf(FlyPast(4));
+  map_delta.lens = refined;
+  const MeshDelta mesh = test::SnapshotOf(WallWithPillar());
+  QualityMap expected{QualityOptions()};
+  expected.SetCamera(*camera.WithLens(refined));
+  expected.Apply(MapOf(FlyPast(4)), mesh);
+
+  QualityMap before{QualityOptions()};
+  before.Apply(map_delta, mesh);
+  before.SetCamera(camera);
+  ExpectEqual(before, expected);
+  before.SetCamera(camera);  // A restarted mapper says it again.
+  ExpectEqual(before, expected);
+
+  QualityMap after{QualityOptions()};
+  after.SetCamera(camera);
+  after.Apply(map_delta, mesh);
+  ExpectEqual(after, expected);
+  MapDelta unrefined = MapOf(FlyPast(4));  // A snapshot of a map whose lens is the calibrated one.
+  unrefined.is_snapshot = true;
+  after.Apply(unrefined, mesh);
+  EXPECT_EQ(after.camera()->lens(), camera.lens());
 }
 
 TEST(QualityMap, DegenerateFacesAndViewsDoNoHarm) {

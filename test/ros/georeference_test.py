@@ -18,7 +18,7 @@ import numpy
 import rosgraph
 import rospy
 import rostest
-from plumbline.msg import (ControlPoints, Georeference, MapDelta, MarkerDetection,
+from plumbline.msg import (ControlPoint, ControlPoints, Georeference, MapDelta, MarkerDetection,
                            MarkerDetectionArray, PhotoPositions, PhotoVerdict)
 from plumbline.srv import GetMarkerDetections, LoadSurvey
 from std_msgs.msg import Float64
@@ -127,10 +127,15 @@ class GeoreferenceTest(wire.FolderTest):
         heard = self.georeferences.wait(lambda all_of_them: any(map(is_it, all_of_them)), what)
         return [georeference for georeference in heard if is_it(georeference)][-1]
 
-    def wait_for_all_targets(self):
-        return self.wait_for(
-            lambda g: g.source == "targets" and g.num_control + g.num_check == len(self.survey),
-            "all targets")
+    def has_all_targets(self, georeference):
+        return (georeference.source == "targets" and
+                georeference.num_control + georeference.num_check == len(self.survey))
+
+    def wait_for_all_targets(self, num_before=0):
+        """Of what is heard after the first `num_before` georeferences."""
+        heard = self.georeferences.wait(
+            lambda heard: any(map(self.has_all_targets, heard[num_before:])), "all targets")
+        return [g for g in heard[num_before:] if self.has_all_targets(g)][-1]
 
     def wait_for_settled(self):
         """The georeference with all that the photos show, and the last delta it was told of."""
@@ -309,9 +314,10 @@ class GeoreferenceTest(wire.FolderTest):
                                alts_ellipsoid_m=[0.0, 0.0]))
         publish("map_delta", MapDelta(sequence=10 ** 6, lens=[NAN] * 12),
                 MapDelta(sequence=10 ** 6, landmarks_removed=[5], views_removed=[1]))
-        publish("control_points", ControlPoints())
+        publish("control_points", ControlPoints(points=[ControlPoint(position_in_map=[NAN] * 3)]))
+        num_before = len(self.georeferences.all())
         self.assertTrue(self.load(self.world / "survey.csv").success)
-        for target, residual in residuals(self.wait_for_all_targets()).items():
+        for target, residual in residuals(self.wait_for_all_targets(num_before)).items():
             numpy.testing.assert_allclose(residual, before[target], atol=1.0)
         self.assertIsNone(flight.poll())
 

@@ -4,7 +4,6 @@
 """marker_detector on the wire: the test stands where camera_ingest would."""
 
 import subprocess
-import time
 import unittest
 
 import numpy
@@ -66,11 +65,9 @@ class MarkersTest(unittest.TestCase):
     def start(self, **parameters):
         node = wire.start_node("marker_detector", self.namespace, **parameters)
         self.addCleanup(lambda: wire.end(node) if node.poll() is None else None)
-        # Asked again and again: rospy does not tell when a subscriber gets its connection.
-        deadline_s = time.monotonic() + wire.DEADLINE_S
-        while not (self.photos.get_num_connections() and self.answers.is_connected()):
-            self.assertLess(time.monotonic(), deadline_s, "marker_detector did not start")
-            time.sleep(0.02)
+        wire.wait_until(
+            lambda: self.photos.get_num_connections() and self.answers.is_connected(),
+            "a marker_detector that listens and is heard")
         return node
 
     def photo(self, sequence, data, width=320, height=240):

@@ -5,7 +5,6 @@
 
 import math
 import random
-import time
 import unittest
 
 import rospy
@@ -129,14 +128,7 @@ class MesherTest(unittest.TestCase):
         self.mesher = wire.start_node("mesher", self.namespace, **parameters)
         self.addCleanup(lambda process=self.mesher: process.poll() is None and wire.end(process))
         self.heard.wait(lambda messages: any(m.is_snapshot for m in messages), "a mesh")
-        self.wait_for_listener()
-
-    def wait_for_listener(self):
-        """Asked again and again: rospy does not tell when a subscriber gets its connection."""
-        deadline_s = time.monotonic() + wire.DEADLINE_S
-        while not self.deltas.get_num_connections():
-            self.assertLess(time.monotonic(), deadline_s, "the mesher does not listen")
-            time.sleep(0.02)
+        wire.wait_until(self.deltas.get_num_connections, "a listener of map_delta")
 
     def get_mesh(self):
         service = rospy.ServiceProxy(f"{self.namespace}/get_mesh", GetMesh)
@@ -173,10 +165,8 @@ class MesherTest(unittest.TestCase):
         self.mesher = wire.start_node("mesher", self.namespace)
         self.addCleanup(lambda: self.mesher.poll() is None and wire.end(self.mesher))
         self.heard.wait(lambda messages: messages[-1].is_snapshot, "the mesh after the restart")
-        deadline = rospy.Time.now() + rospy.Duration(wire.DEADLINE_S)
-        while content(self.get_mesh().blocks) != content(before.blocks):
-            self.assertLess(rospy.Time.now(), deadline, "the mesh is another one")
-            rospy.sleep(0.1)
+        wire.wait_until(lambda: content(self.get_mesh().blocks) == content(before.blocks),
+                        "the mesh of before")
 
     def test_a_missed_delta_is_caught_up_with(self):
         self.build_in_two_steps()

@@ -129,17 +129,5 @@ TEST(DrawTargets, DrawsNothingWhereNothingHasAPlace) {
   EXPECT_TRUE(DrawTargets({}, plumbline::Georeference()).markers.empty());
 }
 
-TEST(WithRemovals, RemovesWhatIsDrawnNoMore) {
-  plumbline::Georeference georeference = MakeGeoreference();
-  const MarkerArray before = DrawTargets({}, georeference);
-  georeference.targets.pop_back();
-  const MarkerArray now = DrawTargets({}, georeference);
-  const MarkerArray sent = WithRemovals(before, now);
-  EXPECT_EQ(Find(sent, "targets", 3)->action, Marker::DELETE);
-  EXPECT_EQ(Find(sent, "target_labels", 3)->action, Marker::DELETE);
-  EXPECT_EQ(Find(sent, "targets", 0)->action, Marker::ADD);
-  EXPECT_EQ(sent.markers.size(), now.markers.size() + 3);
-}
-
 }  // namespace
 }  // namespace plumb::ros_adapter

@@ -44,7 +44,7 @@ def shared_data(scene):
 
 
 def wait_until(condition, what):
-    """For what no message tells."""
+    """Asks again and again, for what no message tells, such as that rospy has a connection."""
     deadline_s = time.monotonic() + DEADLINE_S
     while not condition():
         if time.monotonic() > deadline_s:

@@ -74,6 +74,7 @@ class PanelTest : public testing::Test {
     rviz::DisplayGroup* group = frame_->getManager()->getRootDisplayGroup();
     for (int i = 0; i < group->numDisplays(); ++i) {
       rviz::Display* display = group->getDisplayAt(i);
+      if (display->getClassId() != "rviz/MarkerArray") continue;
       const QString topic = display->subProp("Marker Topic")->getValue().toString();
       if (topic.toStdString() == "/plumbline/mesh_" + layer) return display->isEnabled();
     }
@@ -247,16 +248,20 @@ TEST_F(PanelTest, SaveFinishesTheFlightAndSaysWhatCameOfIt) {
   Press("save");  // Nobody there.
   WaitFor([] { return TextOf("answer") == "The mapper does not answer."; }, "no answer");
   EXPECT_TRUE(Find<QPushButton>("save")->isEnabled());
+  bool is_full = true;
   const ros::ServiceServer server =
       handle_.advertiseService<std_srvs::Trigger::Request, std_srvs::Trigger::Response>(
           "/plumbline/finish",
-          +[](std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-            response.success = 1;
-            response.message = "12 accepted";
+          [&](std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+            response.success = is_full ? 0 : 1;
+            response.message = is_full ? "not saved: the disk is full" : "12 accepted";
             return true;
           });
   Press("save");
   EXPECT_FALSE(Find<QPushButton>("save")->isEnabled());
+  WaitFor([] { return TextOf("answer") == "not saved: the disk is full"; }, "the failure");
+  is_full = false;
+  Press("save");
   WaitFor([] { return TextOf("answer") == "Saved: 12 accepted"; }, "the answer");
   EXPECT_TRUE(Find<QPushButton>("save")->isEnabled());
 }

@@ -225,8 +225,10 @@ TEST_F(BundleConstraintsTest, OneMarkerThatMovedAgainstTheOthersDoesNotTurnThem)
 TEST_F(BundleConstraintsTest, SurveysThatCannotFollowAreLeftOut) {
   BundleConstraints before = ControlPoints();
   before.markers.resize(2);
+  before.centers.push_back({PhotoId{0}, {}});
   const BundleConstraints now = MovedWithMap(before, scene_.camera, map_);
   ASSERT_EQ(now.markers.size(), 2U);
+  EXPECT_TRUE(now.centers.empty());
   for (const MarkerTrack& track : now.markers) EXPECT_FALSE(track.survey);
   EXPECT_TRUE(MovedWithMap({}, scene_.camera, map_).markers.empty());
 }

@@ -56,7 +56,7 @@ class FullRayCast {
     }
   }
 
-  // The least cut; `solve_s` may be timed by the caller around Solve.
+  // Builds the graph, so that Solve can be timed alone.
   void Prepare() {
     graph_ = std::make_unique<maxflow::Graph<int, int, int>>(static_cast<int>(cells_.size()),
                                                              static_cast<int>(2 * cells_.size()));

@@ -39,7 +39,7 @@ TEST(MeshReplica, HoldsTheBlocksAsTheyWereSentLast) {
   EXPECT_EQ(replica.sequence(), 3U);
   EXPECT_EQ(replica.map_sequence(), 13U);
   ASSERT_EQ(replica.blocks().size(), 2U);
-  EXPECT_TRUE(test::IsSameBlock(replica.blocks().at({0, 0, 0}), MakeBlock(0, 50, 1)));
+  EXPECT_TRUE(replica.blocks().at({0, 0, 0}) == MakeBlock(0, 50, 1));
 }
 
 TEST(MeshReplica, RefusesAGapAndTakesASnapshot) {

@@ -95,7 +95,7 @@ TEST(SurfaceMesher, SendsWhatChangedAndNothingElse) {
       if (old == replica.blocks().end()) {
         ASSERT_FALSE(block.faces.empty());
       } else {
-        ASSERT_FALSE(test::IsSameBlock(old->second, block));
+        ASSERT_FALSE(old->second == block);
       }
     }
     ASSERT_TRUE(replica.Apply(delta));
@@ -262,7 +262,7 @@ TEST(SurfaceMesher, TakesBackALandmarkThatBecomesUsable) {
 
 TEST(SurfaceMesher, CutsTheMeshIntoBlocksOfAMetre) {
   SurfaceOptions options = SmallOptions();
-  options.metres_per_map_unit = 4.0;  // A block is a quarter of a unit.
+  options.block_side = 0.25;
   const MeshDelta mesh = MeshOf(SimpleMap::Wall().Snapshot(), options).mesh;
   ASSERT_GT(mesh.blocks.size(), 100U);
   for (const MeshBlock& block : mesh.blocks) {
@@ -282,7 +282,7 @@ TEST(SurfaceMesher, CutsTheMeshIntoBlocksOfAMetre) {
 TEST(SurfaceMesher, RefusesOptionsOutOfBounds) {
   SurfaceOptions options;
   options.alpha_free = -1;
-  options.block_side_m = 0.0;
+  options.block_side = 0.0;
   EXPECT_THAT(options.Problems(), SizeIs(2));
   EXPECT_THROW(SurfaceMesher{options}, std::invalid_argument);
   EXPECT_THAT(SurfaceOptions().Problems(), IsEmpty());

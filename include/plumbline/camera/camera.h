@@ -28,6 +28,9 @@ class Camera {
          DistortionModel model,
          const LensParameters<double>& lens);
 
+  // The same with another lens, such as a bundle's; nothing if no camera can have it.
+  std::optional<Camera> WithLens(const LensParameters<double>& lens) const;
+
   const std::string& name() const { return name_; }
   int width_px() const { return width_px_; }
   int height_px() const { return height_px_; }

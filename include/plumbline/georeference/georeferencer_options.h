@@ -33,8 +33,8 @@ struct GeoreferencerOptions {
   // The same of its height [m].
   double gps_sigma_vertical_m = 2.0;
 
-  // The photos' GPS goes into the bundle as well, by its standard deviations. It helps where there
-  // are no targets; beside targets it weighs nothing.
+  // The photos' GPS goes into the bundle of `georeference --refine` as well, by its standard
+  // deviations; in flight only control points do. Beside targets it weighs nothing.
   bool gps_in_bundle = false;
 
   // GPS without correction is off by up to this, all the flight [m]: more is said aloud.

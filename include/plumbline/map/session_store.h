@@ -81,6 +81,7 @@ class SessionStore {
   // Precondition: `delta` follows the last delta applied.
   void SaveRefinement(const MapDelta& delta);
   void DropRefinement();
+  bool HasRefinement() const;  // Also one of an earlier map.
 
   // The map as it was refined, under the number of the map it was made of; nothing if it was not
   // or has changed since.

@@ -23,10 +23,8 @@ struct QualityUpdate {
   std::vector<BlockId> blocks;
   bool is_noise_changed = false;  // Then the predicted accuracy of every face is.
 
-  std::size_t num_views_changed = 0;  // Came, moved or went.
-  std::size_t num_faces_tested = 0;   // Pairs of face and view that were looked at ...
-  std::size_t num_rays = 0;           // ... and of them those in frame and facing.
-  double seconds = 0.0;               // Wall clock.
+  std::size_t num_rays = 0;  // Pairs of face and view, in frame and facing, that were looked at.
+  double seconds = 0.0;      // Wall clock.
 };
 
 // Keeps the quality of each face of a growing mesh. Only pairs of face and camera are looked at of

@@ -48,8 +48,8 @@ struct BundleConstraints {
 
 // The same for the map as it is now: each marker is triangulated anew from the views that show it,
 // and what was measured goes along with the similarity that takes the markers from where they were
-// to where they are. Where three markers do not tell it, their surveys are left out: they could not
-// hold the map, and may lie anywhere in it.
+// to where they are. Where three markers do not tell it, their surveys and the centres are left
+// out: they may lie anywhere in the map.
 BundleConstraints MovedWithMap(const BundleConstraints& constraints,
                                const Camera& camera,
                                const Map& map);

@@ -13,7 +13,7 @@
 
 namespace plumb {
 
-// A cube of space, of the side SurfaceOptions::block_side_m: floor(position / side) on each axis.
+// A cube of space, of the side SurfaceOptions::block_side: floor(position / side) on each axis.
 struct BlockId {
   std::int32_t x = 0;
   std::int32_t y = 0;
@@ -36,6 +36,10 @@ struct MeshVertex {
   LandmarkId landmark;
   Eigen::Vector3d position_in_map = Eigen::Vector3d::Zero();
   Rgb color = {0, 0, 0};
+
+  friend bool operator==(const MeshVertex& a, const MeshVertex& b) {
+    return a.landmark == b.landmark && a.position_in_map == b.position_in_map && a.color == b.color;
+  }
 };
 
 // All faces whose centroid lies in one cube. Two meshes are equal if their blocks are.
@@ -47,6 +51,10 @@ struct MeshBlock {
   FaceKey KeyOf(std::size_t face_idx) const {
     const std::array<std::uint32_t, 3>& face = faces[face_idx];
     return {vertices[face[0]].landmark, vertices[face[1]].landmark, vertices[face[2]].landmark};
+  }
+
+  friend bool operator==(const MeshBlock& a, const MeshBlock& b) {
+    return a.id == b.id && a.vertices == b.vertices && a.faces == b.faces;
   }
 };
 

@@ -41,9 +41,6 @@ class SurfaceMesher {
 
   std::uint32_t map_sequence() const;
 
-  // Energy of the labelling: that of the least cut.
-  std::int64_t Energy() const;
-
  private:
   class Impl;
   std::unique_ptr<Impl> impl_;

@@ -25,8 +25,8 @@ struct SurfaceOptions {
   // camera, rounded down to a power of two. A move within the pitch changes no tetrahedra.
   int landmark_lattice_bits = 10;
 
-  // The same for cameras, with the median distance of their landmarks: rays are cast anew if the
-  // camera's place on this lattice changes.
+  // The same for the camera of a ray, d being that of the ray's landmark: the ray is cast anew if
+  // the camera's place changes.
   int camera_lattice_bits = 8;
 
   // The mesh shows landmarks on a lattice finer than that of the tetrahedra by so many bits, and
@@ -40,11 +40,9 @@ struct SurfaceOptions {
   // Connected sets of fewer faces are dropped: they hang on wrong matches.
   int min_island_faces = 30;
 
-  // Length of the map's unit; 1 once the map is georeferenced.
-  double metres_per_map_unit = 1.0;
-
-  // Side of the blocks that the mesh is cut into.
-  double block_side_m = 1.0;
+  // Side of the blocks that the mesh is cut into, in the map's unit, which is seldom far from a
+  // metre: the first two cameras are one unit apart.
+  double block_side = 1.0;
 
   // One message per violated bound; empty if the options are usable.
   std::vector<std::string> Problems() const;
@@ -61,8 +59,7 @@ void VisitFields(SurfaceOptions& options, Visitor&& visit) {
   visit("mesh_lattice_bits", options.mesh_lattice_bits);
   visit("max_edge_ratio", options.max_edge_ratio);
   visit("min_island_faces", options.min_island_faces);
-  visit("metres_per_map_unit", options.metres_per_map_unit);
-  visit("block_side_m", options.block_side_m);
+  visit("block_side", options.block_side);
 }
 
 }  // namespace plumb
