@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "image/parallel_for.h"
+#include "marker/outlines.h"
 
 namespace plumb {
 namespace {
@@ -80,19 +81,16 @@ class Level {
     const int last = std::min(gray_.rows, first + kBandHeight);
     const cv::Range rows(std::max(0, first - kBandMargin),
                          std::min(gray_.rows, last + kBandMargin));
-    const cv::Mat dark = DarkPixels(rows);
-    std::vector<std::vector<cv::Point>> outlines;
-    cv::findContours(
-        dark, outlines, cv::RETR_LIST, cv::CHAIN_APPROX_SIMPLE, cv::Point(0, rows.start));
+    cv::Mat dark = DarkPixels(rows);
     std::vector<MarkerCandidate> candidates;
-    for (const std::vector<cv::Point>& outline : outlines) {
+    VisitOutlines(dark, [&](const std::vector<cv::Point>& outline) {
       const cv::Rect box = cv::boundingRect(outline);
-      const int middle = box.y + box.height / 2;
-      if (middle < first || middle >= last || !HasPossibleSize(box, options_)) continue;
-      if (const std::optional<MarkerCandidate> candidate = Candidate(outline)) {
+      const int middle = rows.start + box.y + box.height / 2;
+      if (middle < first || middle >= last || !HasPossibleSize(box, options_)) return;
+      if (const std::optional<MarkerCandidate> candidate = Candidate(outline, rows.start)) {
         candidates.push_back(*candidate);
       }
-    }
+    });
     return candidates;
   }
 
@@ -112,9 +110,12 @@ class Level {
     return dark;
   }
 
-  std::optional<MarkerCandidate> Candidate(const std::vector<cv::Point>& outline) const {
+  // The outline is given in the rows from first_row on.
+  std::optional<MarkerCandidate> Candidate(const std::vector<cv::Point>& outline,
+                                           int first_row) const {
     std::optional<Ellipse> ellipse = EllipseOfOutline(outline);
     if (!ellipse) return std::nullopt;
+    ellipse->center_px.y() += first_row;
     if (ellipse->semi_minor_px < options_.min_axis_ratio * ellipse->semi_major_px) {
       return std::nullopt;
     }
