@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the quality of the surface takes a photo beside the surface itself, over a made-up flight of
-// the paper's size, in time of the processor. Prints JSON.
-//   quality_benchmark PHOTOS LANDMARKS
+// What the quality of the surface takes a photo beside the surface itself, in time of the processor.
+// Prints JSON.
+//   quality_benchmark PHOTOS LANDMARKS     over a made-up flight of the paper's size
+//   quality_benchmark replay DELTAS CAMERA over a recorded one (surface_benchmark record)
 #include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -15,6 +16,7 @@
 #include "plumbline/quality/quality_map.h"
 #include "plumbline/surface/surface_mesher.h"
 #include "test/benchmark/cpu_watch.h"
+#include "test/benchmark/delta_file.h"
 #include "test/benchmark/synthetic_flight.h"
 
 namespace plumb {
@@ -43,6 +45,7 @@ struct Step {
   double quality_s = 0.0;
   double gaps_s = 0.0;
   double num_rays = 0.0;
+  double num_views = 0.0;
   double num_blocks = 0.0;
 };
 
@@ -63,31 +66,38 @@ Json Summarize(const std::vector<Step>& steps, std::size_t begin, std::size_t en
           {"both_p95_ms", quantile(0.95, total)},
           {"gaps_ms", quantile(0.5, [](const Step& s) { return 1e3 * s.gaps_s; })},
           {"rays", quantile(0.5, [](const Step& s) { return s.num_rays; })},
+          {"views", quantile(0.5, [](const Step& s) { return s.num_views; })},
           {"blocks", quantile(0.5, [](const Step& s) { return s.num_blocks; })}};
 }
 
-int Main(int num_photos, int num_landmarks) {
+std::vector<MapDelta> MadeUpFlight(int num_photos, int num_landmarks) {
   test::SyntheticFlight::Options options;
   options.num_photos = num_photos;
   options.num_landmarks = num_landmarks;
-  const std::vector<MapDelta> deltas = test::SyntheticFlight(options).Fly();
+  std::vector<MapDelta> deltas = test::SyntheticFlight(options).Fly();
+  for (MapDelta& delta : deltas) TurnToWall(&delta);
+  return deltas;
+}
+
+void MeasureSteps(const std::vector<MapDelta>& deltas, const Camera& camera) {
   const std::uint64_t bytes_before = CurrentProcessUsage().peak_memory_bytes;
   SurfaceMesher surface{SurfaceOptions()};
   QualityMap quality{QualityOptions()};
-  quality.SetCamera(PaperCamera());
-  const Measure measure{1.0, 3344.0, 0.5};
+  quality.SetCamera(camera);
+  const Measure measure{1.0, camera.MeanFocalLength(), 0.5};
   std::vector<Step> steps;
-  for (MapDelta delta : deltas) {
-    TurnToWall(&delta);
+  for (const MapDelta& delta : deltas) {
     test::CpuWatch watch;
     Step step;
-    const SurfaceUpdate update = surface.Apply(delta).value();
+    const std::optional<SurfaceUpdate> update = surface.Apply(delta);
+    if (!update) continue;
     step.surface_s = watch.Restart();
-    const QualityUpdate changed = quality.Apply(delta, update.mesh);
+    const QualityUpdate changed = quality.Apply(delta, update->mesh);
     step.quality_s = watch.Restart();
     FindGaps(GapOptions(), quality.blocks(), measure, 1.0);
     step.gaps_s = watch.Restart();
     step.num_rays = static_cast<double>(changed.num_rays);
+    step.num_views = static_cast<double>(delta.views_set.size());
     step.num_blocks = static_cast<double>(changed.blocks.size());
     steps.push_back(step);
   }
@@ -102,16 +112,22 @@ int Main(int num_photos, int num_landmarks) {
       {"100_to_200", Summarize(steps, 100, 200)},
       {"last_100", Summarize(steps, steps.size() > 100 ? steps.size() - 100 : 0, steps.size())}};
   std::cout << result.dump(1) << '\n';
-  return 0;
 }
 
 }  // namespace
 }  // namespace plumb
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::cerr << "quality_benchmark PHOTOS LANDMARKS\n";
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (arguments.size() == 3 && arguments[0] == "replay") {
+    plumb::MeasureSteps(plumb::test::DeltaFile::Read(arguments[1]),
+                   plumb::ReadCameraYaml(arguments[2]));
+  } else if (arguments.size() == 2) {
+    plumb::MeasureSteps(plumb::MadeUpFlight(std::stoi(arguments[0]), std::stoi(arguments[1])),
+                   plumb::PaperCamera());
+  } else {
+    std::cerr << "quality_benchmark PHOTOS LANDMARKS, or replay DELTAS CAMERA\n";
     return 2;
   }
-  return plumb::Main(std::stoi(argv[1]), std::stoi(argv[2]));
+  return 0;
 }
