@@ -39,6 +39,29 @@ class QualityMap::Impl {
     std::map<PhotoId, SightRow> rows;  // Of views that have at least one value other than 0.
   };
 
+  struct Look {
+    PhotoId photo;
+    const internal::Sight* sight = nullptr;
+  };
+
+  // At an unchanged block, past changed ones that cover these parts of the image.
+  struct LookPast {
+    Look look;
+    std::vector<internal::ImageRect> before;
+  };
+
+  // The looks at one block. Blocks are looked at in parallel.
+  struct BlockTask {
+    std::vector<Look> looks;
+    std::vector<LookPast> looks_past;
+  };
+
+  struct BlockOutcome {
+    std::size_t num_rays = 0;
+    bool is_touched = false;
+    std::vector<PhotoId> new_rows;
+  };
+
   void ApplyViews(const MapDelta& delta);
   void ApplyLens(const MapDelta& delta);
   void UseCamera();
@@ -50,13 +73,18 @@ class QualityMap::Impl {
   void RemoveBlock(const BlockId& id);
   void NoteChange(const BlockId& id, const Eigen::AlignedBox3d& box);
   void LookAnew();
-  void LookPast(PhotoId photo, const internal::Sight& sight);
-  void MakeRow(const BlockId& id, PhotoId photo, const internal::Sight& sight);
+  std::map<BlockId, BlockTask> PlanLooks() const;
+  void PlanLooksPast(PhotoId photo,
+                     const internal::Sight& sight,
+                     std::map<BlockId, BlockTask>* tasks) const;
+  BlockOutcome Perform(const BlockId& id, const BlockTask& task);
+  std::vector<std::uint32_t> FacesBehind(const BlockId& id, const LookPast& look) const;
+  void MakeRow(const BlockId& id, const Look& look, BlockOutcome* outcome);
   void Retest(const BlockId& id,
-              PhotoId photo,
-              const internal::Sight& sight,
-              const std::vector<std::uint32_t>& faces);
-  void Summarize(const BlockId& id);
+              const Look& look,
+              const std::vector<std::uint32_t>& faces,
+              BlockOutcome* outcome);
+  bool Summarize(const BlockId& id);
   void UpdateNoise();
   QualityUpdate Finish();
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "image/parallel_for.h"
 #include "quality/quality_map_impl.h"
 
 namespace plumb {
@@ -32,28 +33,49 @@ float LargestSigma(const Eigen::Matrix3d& information) {
 }  // namespace
 
 void QualityMap::Impl::LookAnew() {
-  for (const auto& [photo, sight] : sights_) {
-    const bool is_new = changed_views_.count(photo) != 0;
-    if (!is_new) LookPast(photo, sight);
-    const auto look = [&, &photo = photo, &sight = sight](const BlockId& id) {
-      const BlockState& state = states_.at(id);
-      if (state.box.isEmpty()) return;
-      if (!sight.MayShow(state.box.center(), 0.5 * state.box.diagonal().norm())) return;
-      MakeRow(id, photo, sight);
-    };
-    if (is_new) {
-      for (const auto& [id, state] : states_) look(id);
-    } else {
-      for (const auto& [id, box] : changed_boxes_) {
-        if (states_.count(id) != 0) look(id);
-      }
+  const std::map<BlockId, BlockTask> tasks = PlanLooks();
+  std::vector<const std::pair<const BlockId, BlockTask>*> items;
+  for (const auto& item : tasks) items.push_back(&item);
+  std::vector<BlockOutcome> outcomes(items.size());
+  ParallelFor(options_.num_threads, static_cast<int>(items.size()), 1, [&](int begin, int end) {
+    for (std::size_t i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      outcomes[i] = Perform(items[i]->first, items[i]->second);
     }
+  });
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const BlockId& id = items[i]->first;
+    update_.num_rays += outcomes[i].num_rays;
+    if (outcomes[i].is_touched) touched_blocks_.insert(id);
+    for (const PhotoId photo : outcomes[i].new_rows) blocks_of_view_[photo].insert(id);
   }
 }
 
-// Tests anew the faces of unchanged blocks that the view has to see past a changed one: what covers
-// the same part of the image and is nearer may have come or gone.
-void QualityMap::Impl::LookPast(PhotoId photo, const Sight& sight) {
+std::map<BlockId, QualityMap::Impl::BlockTask> QualityMap::Impl::PlanLooks() const {
+  std::map<BlockId, BlockTask> tasks;
+  for (const auto& [photo, sight] : sights_) {
+    const auto plan = [&, &photo = photo, &sight = sight](const BlockId& id) {
+      const BlockState& state = states_.at(id);
+      if (state.box.isEmpty()) return;
+      if (!sight.MayShow(state.box.center(), 0.5 * state.box.diagonal().norm())) return;
+      tasks[id].looks.push_back({photo, &sight});
+    };
+    if (changed_views_.count(photo) != 0) {
+      for (const auto& [id, state] : states_) plan(id);
+    } else {
+      PlanLooksPast(photo, sight, &tasks);
+      for (const auto& [id, box] : changed_boxes_) {
+        if (states_.count(id) != 0) plan(id);
+      }
+    }
+  }
+  return tasks;
+}
+
+// Unchanged blocks that the view has to see past a changed one: what covers the same part of the
+// image and is nearer may have come or gone.
+void QualityMap::Impl::PlanLooksPast(PhotoId photo,
+                                     const Sight& sight,
+                                     std::map<BlockId, BlockTask>* tasks) const {
   const auto shown = blocks_of_view_.find(photo);
   if (shown == blocks_of_view_.end()) return;
   std::vector<ImageRect> rects;
@@ -62,42 +84,56 @@ void QualityMap::Impl::LookPast(PhotoId photo, const Sight& sight) {
     rects.push_back(sight.RectOf(box.min(), box.max()));
   }
   if (rects.empty()) return;
-  std::vector<std::uint32_t> faces;
-  std::vector<const ImageRect*> before;
   for (const BlockId& id : shown->second) {
     if (changed_boxes_.count(id) != 0) continue;
     const BlockState& state = states_.at(id);
     const ImageRect own = sight.RectOf(state.box.min(), state.box.max());
-    before.clear();
+    LookPast look{{photo, &sight}, {}};
     for (const ImageRect& rect : rects) {
-      if (rect.Meets(own) && rect.min_depth < own.max_depth) before.push_back(&rect);
+      if (rect.Meets(own) && rect.min_depth < own.max_depth) look.before.push_back(rect);
     }
-    if (before.empty()) continue;
-    faces.clear();
-    const SightRow& row = state.rows.at(photo);
-    const std::vector<FaceShape>& shapes = blocks_.at(id).shapes;
-    for (std::uint32_t i = 0; i < row.size(); ++i) {
-      if (row[i] == 0.0F) continue;
-      const Eigen::Vector3d seen = sight.Seen(shapes[i].center_in_map);
-      const bool is_behind = std::any_of(before.begin(), before.end(), [&](const ImageRect* rect) {
-        return seen.z() > rect->min_depth && seen.x() >= rect->min.x() &&
-               seen.x() <= rect->max.x() && seen.y() >= rect->min.y() && seen.y() <= rect->max.y();
-      });
-      if (is_behind) faces.push_back(i);
-    }
-    if (!faces.empty()) Retest(id, photo, sight, faces);
+    if (!look.before.empty()) (*tasks)[id].looks_past.push_back(std::move(look));
   }
 }
 
-void QualityMap::Impl::MakeRow(const BlockId& id, PhotoId photo, const Sight& sight) {
+// Changes the block's own state only.
+QualityMap::Impl::BlockOutcome QualityMap::Impl::Perform(const BlockId& id, const BlockTask& task) {
+  BlockOutcome outcome;
+  for (const LookPast& look : task.looks_past) {
+    const std::vector<std::uint32_t> faces = FacesBehind(id, look);
+    if (!faces.empty()) Retest(id, look.look, faces, &outcome);
+  }
+  for (const Look& look : task.looks) MakeRow(id, look, &outcome);
+  return outcome;
+}
+
+// Faces of the block in the view that lie behind what has changed, as it covers the image.
+std::vector<std::uint32_t> QualityMap::Impl::FacesBehind(const BlockId& id,
+                                                         const LookPast& look) const {
+  std::vector<std::uint32_t> faces;
+  const SightRow& row = states_.at(id).rows.at(look.look.photo);
+  const std::vector<FaceShape>& shapes = blocks_.at(id).shapes;
+  for (std::uint32_t i = 0; i < row.size(); ++i) {
+    if (row[i] == 0.0F) continue;
+    const Eigen::Vector3d seen = look.look.sight->Seen(shapes[i].center_in_map);
+    const auto is_before = [&](const ImageRect& rect) {
+      return seen.z() > rect.min_depth && seen.x() >= rect.min.x() && seen.x() <= rect.max.x() &&
+             seen.y() >= rect.min.y() && seen.y() <= rect.max.y();
+    };
+    if (std::any_of(look.before.begin(), look.before.end(), is_before)) faces.push_back(i);
+  }
+  return faces;
+}
+
+void QualityMap::Impl::MakeRow(const BlockId& id, const Look& look, BlockOutcome* outcome) {
   const std::vector<FaceShape>& shapes = blocks_.at(id).shapes;
   SightRow row(shapes.size(), 0.0F);
   std::vector<std::uint32_t> faces;
   for (std::uint32_t i = 0; i < shapes.size(); ++i) {
     const FaceShape& shape = shapes[i];
-    const Eigen::Vector3d towards_eye = sight.eye_in_map() - shape.center_in_map;
+    const Eigen::Vector3d towards_eye = look.sight->eye_in_map() - shape.center_in_map;
     if (!(shape.normal_in_map.dot(towards_eye) > 0.0)) continue;
-    const std::optional<PixelByPoint> pixel_by_point = sight.Look(shape.center_in_map);
+    const std::optional<PixelByPoint> pixel_by_point = look.sight->Look(shape.center_in_map);
     if (!pixel_by_point) continue;
     row[i] = static_cast<float>(internal::StretchOfPixel(*pixel_by_point, shape.normal_in_map));
     if (row[i] > 0.0F) {
@@ -107,34 +143,35 @@ void QualityMap::Impl::MakeRow(const BlockId& id, PhotoId photo, const Sight& si
     }
   }
   if (faces.empty()) return;
-  states_.at(id).rows.insert_or_assign(photo, std::move(row));
-  blocks_of_view_[photo].insert(id);
-  touched_blocks_.insert(id);
-  Retest(id, photo, sight, faces);
+  states_.at(id).rows.insert_or_assign(look.photo, std::move(row));
+  outcome->new_rows.push_back(look.photo);
+  outcome->is_touched = true;
+  Retest(id, look, faces, outcome);
 }
 
 void QualityMap::Impl::Retest(const BlockId& id,
-                              PhotoId photo,
-                              const Sight& sight,
-                              const std::vector<std::uint32_t>& faces) {
+                              const Look& look,
+                              const std::vector<std::uint32_t>& faces,
+                              BlockOutcome* outcome) {
   const QualityBlock& block = blocks_.at(id);
   std::vector<Eigen::Vector3d> centers;
   centers.reserve(faces.size());
   for (const std::uint32_t face : faces) centers.push_back(block.shapes[face].center_in_map);
   std::vector<char> is_hidden;
-  occluders_.FindHidden(block.mesh, centers, faces, sight.eye_in_map(), &is_hidden);
-  update_.num_rays += faces.size();
-  SightRow& row = states_.at(id).rows.at(photo);
+  occluders_.FindHidden(block.mesh, centers, faces, look.sight->eye_in_map(), &is_hidden);
+  outcome->num_rays += faces.size();
+  SightRow& row = states_.at(id).rows.at(look.photo);
   for (std::size_t i = 0; i < faces.size(); ++i) {
     float& value = row[faces[i]];
     const float now = is_hidden[i] != 0 ? -std::abs(value) : std::abs(value);
     if (now == value) continue;
     value = now;
-    touched_blocks_.insert(id);
+    outcome->is_touched = true;
   }
 }
 
-void QualityMap::Impl::Summarize(const BlockId& id) {
+// Sums up the block's rows; whether something came out that was not known.
+bool QualityMap::Impl::Summarize(const BlockId& id) {
   QualityBlock& block = blocks_.at(id);
   std::vector<FaceQuality> qualities(block.shapes.size());
   std::vector<Eigen::Matrix3d> information(block.shapes.size(), Eigen::Matrix3d::Zero());
@@ -156,8 +193,9 @@ void QualityMap::Impl::Summarize(const BlockId& id) {
   for (std::size_t i = 0; i < qualities.size(); ++i) {
     if (qualities[i].num_views >= 2) qualities[i].sigma_per_px = LargestSigma(information[i]);
   }
-  if (changed_boxes_.count(id) != 0 || qualities != block.qualities) update_.blocks.push_back(id);
+  const bool is_new = changed_boxes_.count(id) != 0 || qualities != block.qualities;
   block.qualities = std::move(qualities);
+  return is_new;
 }
 
 void QualityMap::Impl::UpdateNoise() {
@@ -171,12 +209,15 @@ void QualityMap::Impl::UpdateNoise() {
 }
 
 QualityUpdate QualityMap::Impl::Finish() {
-  for (const BlockId& id : touched_blocks_) {
-    if (blocks_.count(id) != 0) {
-      Summarize(id);
-    } else {
-      update_.blocks.push_back(id);
+  const std::vector<BlockId> touched(touched_blocks_.begin(), touched_blocks_.end());
+  std::vector<char> is_new(touched.size(), 1);  // As removed blocks are.
+  ParallelFor(options_.num_threads, static_cast<int>(touched.size()), 1, [&](int begin, int end) {
+    for (std::size_t i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      if (blocks_.count(touched[i]) != 0) is_new[i] = Summarize(touched[i]) ? 1 : 0;
     }
+  });
+  for (std::size_t i = 0; i < touched.size(); ++i) {
+    if (is_new[i] != 0) update_.blocks.push_back(touched[i]);
   }
   UpdateNoise();
   changed_views_.clear();

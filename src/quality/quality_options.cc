@@ -12,6 +12,7 @@ std::vector<std::string> QualityOptions::Problems() const {
                    "default_noise_px",
                    "above 0 and at most 100",
                    default_noise_px);
+  problems.Require(num_threads >= 0, "num_threads", "0 or more", num_threads);
   return problems.Take();
 }
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the quality of the surface takes a photo beside the surface itself, in time of the processor.
-// Prints JSON.
+// What the quality of the surface takes a photo beside the surface itself, in time of the
+// processor. Prints JSON.
 //   quality_benchmark PHOTOS LANDMARKS     over a made-up flight of the paper's size
 //   quality_benchmark replay DELTAS CAMERA over a recorded one (surface_benchmark record)
 #include <algorithm>
@@ -121,10 +121,10 @@ int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   if (arguments.size() == 3 && arguments[0] == "replay") {
     plumb::MeasureSteps(plumb::test::DeltaFile::Read(arguments[1]),
-                   plumb::ReadCameraYaml(arguments[2]));
+                        plumb::ReadCameraYaml(arguments[2]));
   } else if (arguments.size() == 2) {
     plumb::MeasureSteps(plumb::MadeUpFlight(std::stoi(arguments[0]), std::stoi(arguments[1])),
-                   plumb::PaperCamera());
+                        plumb::PaperCamera());
   } else {
     std::cerr << "quality_benchmark PHOTOS LANDMARKS, or replay DELTAS CAMERA\n";
     return 2;
