@@ -32,14 +32,14 @@ build: deps ## Build all: the core, the command line, the ROS nodes
 
 test: build ## Build and run every test: the core's, the ROS graph's, and the core's under ASan and UBSan
 	cmake --build $(BUILD) -j$(JOBS) --target tests
-	source devel/setup.bash && ctest --test-dir $(BUILD) --output-on-failure
+	source devel/setup.bash && ctest --test-dir $(BUILD) -j$(JOBS) --output-on-failure
 	@$(MAKE) test-sanitize
 
 test-sanitize: deps ## Run the core's tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	@test -f $(SANITIZED)/CMakeCache.txt || cmake -S . -B $(SANITIZED) \
 	  -DCMAKE_BUILD_TYPE=RelWithDebInfo -DPLUMBLINE_BUILD_ROS=OFF -DPLUMBLINE_SANITIZE=ON
 	cmake --build $(SANITIZED) -j$(JOBS) --target tests
-	ctest --test-dir $(SANITIZED) --output-on-failure
+	ctest --test-dir $(SANITIZED) -j$(JOBS) --output-on-failure
 
 bench: build ## Measure accuracy and seconds a photo on the shared and the simulated scenes, into build/bench
 	/usr/bin/python3 scripts/bench.py

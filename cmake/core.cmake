@@ -105,6 +105,7 @@ foreach(module common geometry camera image marker calibration map matching sfm 
                simulation export evaluation tools)
   plumb_module_test(${module} plumb_${module} plumb_camera)  # test/support makes scenes.
 endforeach()
+set_tests_properties(tools_test PROPERTIES COST 100)  # The longest: first of those at once.
 plumb_module_test(quality plumb_quality plumb_simulation)  # Whose facades are true meshes.
 target_link_libraries(surface_test PRIVATE CGAL::CGAL PkgConfig::MAXFLOW)
 

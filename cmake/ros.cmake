@@ -157,4 +157,9 @@ if(CATKIN_ENABLE_TESTING)
   foreach(rostest ${rostests})
     add_rostest(${rostest} DEPENDENCIES ${programs})
   endforeach()
+
+  # Each starts a ROS graph, with time limits of its own: nothing runs beside it.
+  get_property(registered DIRECTORY PROPERTY TESTS)
+  list(FILTER registered INCLUDE REGEX "rostest")
+  set_tests_properties(${registered} PROPERTIES RUN_SERIAL TRUE)
 endif()
