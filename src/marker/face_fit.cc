@@ -11,7 +11,8 @@
 namespace plumb {
 namespace {
 
-// The homography [a00 a01 x; a10 a11 y; v0 v1 1], then blur, black, contrast, light's gradient.
+// The homography [a00 a01 x; a10 a11 y; v0 v1 1], then blur, growth of white, black, contrast,
+// light's gradient.
 enum Parameter {
   kA00,
   kA01,
@@ -22,6 +23,7 @@ enum Parameter {
   kV0,
   kV1,
   kBlur,
+  kGrowth,
   kBlack,
   kContrast,
   kLightX,
@@ -34,6 +36,9 @@ using Normal = Eigen::Matrix<double, kNumParameters, kNumParameters>;
 constexpr int kMaxIterations = 15;
 constexpr double kMinBlurPx = 0.3;  // A pixel's own area has 0.29.
 constexpr double kMaxBlurPx = 10.0;
+// Standard deviation expected of the growth [px]. A camera's tone curve lets white grow by half of
+// the blur; where the code leaves more black on one side, the centre would move with it.
+constexpr double kGrowthSigmaPx = 0.4;
 constexpr double kConvergedPx = 2e-4;
 constexpr double kHuberWidth = 2.0;  // Standard deviations of the residuals.
 constexpr double kMinNoise = 0.5;    // Grey levels: what rounding and JPEG leave.
@@ -67,7 +72,7 @@ Prediction Predict(std::uint32_t word,
   // place = (affine m + center) / depth, so that its derivative by m is this.
   const Eigen::Matrix2d pixel_by_marker = (affine - place_px * v.transpose()) / depth;
   const Eigen::Matrix2d marker_by_pixel = pixel_by_marker.inverse();
-  const Whiteness face = BlurredFace(word, m, marker_by_pixel, p(kBlur));
+  const Whiteness face = BlurredFace(word, m, marker_by_pixel, {p(kBlur), p(kGrowth)});
   // By how the pixel of a fixed point of the marker moves, at a fixed pixel.
   const double light = p(kContrast) + p(kLightX) * m.x() + p(kLightY) * m.y();
   const Eigen::RowVector2d by_place = -light * face.by_point.transpose() * marker_by_pixel / depth;
@@ -85,6 +90,7 @@ Prediction Predict(std::uint32_t word,
   j(kV0) = along_place * m.x();
   j(kV1) = along_place * m.y();
   j(kBlur) = light * face.by_blur;
+  j(kGrowth) = light * face.by_growth;
   j(kBlack) = 1.0;
   j(kContrast) = face.value;
   j(kLightX) = face.value * m.x();
@@ -125,11 +131,9 @@ class Solver {
       right_ += weight * residual * j;
     }
     normal_ = normal_.selfadjointView<Eigen::Lower>();
-    const double prior = noise_ * noise_ / (perspective_sigma_ * perspective_sigma_);
-    for (const int i : {kV0, kV1}) {
-      normal_(i, i) += prior;
-      right_(i) -= prior * p(i);
-    }
+    ExpectZero(kV0, perspective_sigma_, p);
+    ExpectZero(kV1, perspective_sigma_, p);
+    ExpectZero(kGrowth, kGrowthSigmaPx, p);
   }
 
   std::optional<Parameters> Step() const {
@@ -167,6 +171,12 @@ class Solver {
   }
 
  private:
+  void ExpectZero(Parameter parameter, double sigma, const Parameters& p) {
+    const double prior = noise_ * noise_ / (sigma * sigma);
+    normal_(parameter, parameter) += prior;
+    right_(parameter) -= prior * p(parameter);
+  }
+
   const std::vector<FaceSample>& samples_;
   std::uint32_t word_;
   double perspective_sigma_;
@@ -184,7 +194,7 @@ Parameters Start(const std::vector<FaceSample>& samples, const Eigen::Matrix3d& 
   const double white = grays[grays.size() - 1 - grays.size() / 10];
   const Eigen::Matrix3d h = homography / homography(2, 2);
   Parameters p;
-  p << h(0, 0), h(0, 1), h(1, 0), h(1, 1), h(0, 2), h(1, 2), h(2, 0), h(2, 1), 0.9, black,
+  p << h(0, 0), h(0, 1), h(1, 0), h(1, 1), h(0, 2), h(1, 2), h(2, 0), h(2, 1), 0.9, 0.0, black,
       white - black, 0.0, 0.0;
   return p;
 }

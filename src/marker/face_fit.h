@@ -24,7 +24,8 @@ struct FaceFit {
 };
 
 // Lays the marker's face over the photo: least squares on the grey values (Huber's norm) over
-// the homography, the blur, black, white, and a gradient of the light. Its centre is that of the
+// the homography, the blur, the growth of white that a tone curve or the print makes, black, white,
+// and a gradient of the light. Its centre is that of the
 // marker's frame and so free of the perspective's bias. `perspective_sigma`: standard deviation
 // expected of the homography's lower left entries; keeps small markers from inventing a tilt.
 // Nothing if it does not converge near `pixel_from_marker`.

@@ -12,14 +12,21 @@ struct Whiteness {
   double value = 0.0;
   Eigen::Vector2d by_point = Eigen::Vector2d::Zero();  // Per outer radius.
   double by_blur = 0.0;                                // Per unit of blur.
+  double by_growth = 0.0;                              // Per unit of growth.
 };
 
-// The face under a Gaussian blur of the image, of `blur` pixels, where `marker_from_pixel` is the
-// derivative of marker coordinates by pixels. Edges are straight within the blur's reach, and the
-// code's cells the product of their radial and their tangential edges.
+// What the photo does to the edges [px].
+struct EdgeLook {
+  double blur = 0.0;    // Sigma of a Gaussian.
+  double growth = 0.0;  // By how much white has grown over black.
+};
+
+// The face as the photo shows it, where `marker_from_pixel` is the derivative of marker coordinates
+// by pixels. Edges are straight within the blur's reach, and the code's cells the product of their
+// radial and their tangential edges.
 Whiteness BlurredFace(std::uint32_t word,
                       const Eigen::Vector2d& point_in_marker,
                       const Eigen::Matrix2d& marker_from_pixel,
-                      double blur);
+                      const EdgeLook& look);
 
 }  // namespace plumb

@@ -95,6 +95,26 @@ TEST(DetectMarkers, FindsTheCentresOfASharpNoiseFreePhoto) {
   EXPECT_LT(MeanError(DetectMarkers({}, gray), scene.truth), 0.01);
 }
 
+// It lets white grow over black, and a code has more black on one side than on the other: without
+// regard to that the centres are off by 0.025 px here, and by 0.12 px on a simulated facade in the
+// sun.
+TEST(DetectMarkers, TheToneCurveDoesNotMoveTheCentre) {
+  const Camera camera = MakeCamera();
+  const Scene scene = MakeScene(camera, 50.0, 0.3, 4);
+  PhotoConditions conditions;
+  conditions.noise = 0.0;
+  conditions.black = 6.0;
+  conditions.white = 240.0;
+  cv::Mat tones(1, 256, CV_8U);
+  for (int i = 0; i < 256; ++i) {  // IEC 61966-2-1 (sRGB).
+    const double tone = 1.055 * std::pow(i / 255.0, 1.0 / 2.4) - 0.055;
+    tones.at<std::uint8_t>(i) = cv::saturate_cast<std::uint8_t>(255.0 * tone);
+  }
+  cv::Mat gray;
+  cv::LUT(RenderPhoto(camera, scene.faces, conditions), tones, gray);
+  EXPECT_LT(MeanError(DetectMarkers({}, gray), scene.truth), 0.01);
+}
+
 TEST(DetectMarkers, CorrectsThePerspectiveOfASteepTilt) {
   const Camera camera = MakeCamera();
   const Scene scene = MakeScene(camera, 40.0, 60.0 * M_PI / 180.0, 2);
