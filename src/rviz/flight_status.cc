@@ -25,15 +25,17 @@ std::string Words(std::string name) {
 void FlightStatus::OnVerdict(const plumbline::PhotoVerdict& verdict) {
   if (verdict.sequence < newest_photo_) return;
   newest_photo_ = verdict.sequence;
-  if (verdict.status == plumbline::PhotoVerdict::ACCEPTED) {
+  const bool is_accepted = verdict.status == plumbline::PhotoVerdict::ACCEPTED;
+  hint_ = is_accepted ? "" : verdict.hint;
+  if (is_accepted) {
     lamp_ = Lamp::kGreen;
-    sentence_ = verdict.name + " accepted.";
+    sentence_ = verdict.name + " accepted";
   } else if (verdict.status == plumbline::PhotoVerdict::WAITING) {
     lamp_ = Lamp::kYellow;
-    sentence_ = verdict.name + " waits. " + verdict.hint;
+    sentence_ = verdict.name + " waits for a partner";
   } else {
     lamp_ = Lamp::kRed;
-    sentence_ = verdict.name + " REFUSED: " + Words(verdict.reason) + ". " + verdict.hint;
+    sentence_ = verdict.name + " REFUSED: " + Words(verdict.reason);
   }
 }
 
