@@ -11,7 +11,7 @@ namespace plumb {
 namespace {
 
 constexpr int kLeft_px = 40;
-constexpr int kRight_px = kLegendWidth_px - 130;  // Then the field of unseen faces.
+constexpr int kRight_px = kLegendWidth_px - 165;  // Then the field of unseen faces.
 constexpr int kTop_px = 60;
 constexpr int kBottom_px = 112;
 constexpr int kTicks_px = 142;  // The middle of their numbers.
@@ -75,7 +75,7 @@ void DrawBar(Palette palette, cv::Mat* picture) {
         .setTo(cv::Scalar(color[0], color[1], color[2]));
   }
   cv::rectangle(*picture, {kLeft_px, kTop_px}, {kRight_px, kBottom_px}, kInk, 2);
-  const cv::Rect unseen(kRight_px + 30, kTop_px, 70, kBottom_px - kTop_px);
+  const cv::Rect unseen(kLegendWidth_px - 102, kTop_px, 70, kBottom_px - kTop_px);
   cv::rectangle(
       *picture, unseen, cv::Scalar(kUnseenColor[0], kUnseenColor[1], kUnseenColor[2]), cv::FILLED);
   cv::rectangle(*picture, unseen, kInk, 2);

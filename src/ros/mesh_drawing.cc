@@ -26,7 +26,7 @@ constexpr std::array<float, 3> kWhite = {1.0F, 1.0F, 1.0F};
 constexpr int kRingSides = 32;
 
 // Letters are legible where the whole flight is in view: one in so many of its extent.
-constexpr double kTextPerExtent = 0.035;
+constexpr double kTextPerExtent = 0.027;
 
 // Of the disc behind a gap's name, and how far the name is before it, in heights of a letter: it is
 // before the disc even where that is seen from 25 degrees aside.
@@ -94,6 +94,12 @@ double ExtentOf(const std::vector<Gap>& gaps, const std::map<PhotoId, Rigid3>& c
   return box.diagonal().norm();
 }
 
+// Signs stand upright, but those of gaps that lie flat.
+Eigen::Vector3d Upright(const Eigen::Vector3d& normal) {
+  const Eigen::Vector3d level(normal.x(), normal.y(), 0.0);
+  return level.norm() < 0.5 ? normal : level.normalized();
+}
+
 // A gap's ring, and at the top of it the name on a disc; a target's plate is white and square.
 class GapSign {
  public:
@@ -101,6 +107,7 @@ class GapSign {
       : gap_(gap),
         id_(id),
         text_height_(text_height),
+        facing_(Upright(gap.normal_in_map)),
         radius_(std::max(std::sqrt(gap.area / M_PI), 0.5 * kDiscDiameter * text_height)),
         header_(header) {}
 
@@ -117,8 +124,7 @@ class GapSign {
   visualization_msgs::Marker Disc() const {
     auto disc = MakeMarker(visualization_msgs::Marker::CYLINDER, "gap_disc", id_, header_);
     disc.pose.position = ToPointMsg(Top());
-    const auto turn =
-        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), gap_.normal_in_map);
+    const auto turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), facing_);
     disc.pose.orientation.x = turn.x();
     disc.pose.orientation.y = turn.y();
     disc.pose.orientation.z = turn.z();
@@ -130,7 +136,7 @@ class GapSign {
   }
 
   visualization_msgs::Marker Name() const {
-    const Eigen::Vector3d place = Top() + kTextAhead * text_height_ * gap_.normal_in_map;
+    const Eigen::Vector3d place = Top() + kTextAhead * text_height_ * facing_;
     auto name = Text("G" + std::to_string(id_ + 1), place, text_height_, "gap_name", id_, header_);
     name.color = Ink(kWhite);
     return name;
@@ -144,13 +150,12 @@ class GapSign {
   }
 
   // A little before the ring.
-  Eigen::Vector3d Top() const {
-    return OnRing(0.5 * M_PI) + 0.3 * text_height_ * gap_.normal_in_map;
-  }
+  Eigen::Vector3d Top() const { return OnRing(0.5 * M_PI) + 0.3 * text_height_ * facing_; }
 
   const Gap& gap_;
   int id_;
   double text_height_;
+  Eigen::Vector3d facing_;  // Of the disc.
   double radius_;
   const std_msgs::Header& header_;
 };

@@ -141,7 +141,7 @@ TEST(DrawGaps, NamesThemOnDiscsThatAreLegibleInTheWholeView) {
     if (marker.type == Marker::CYLINDER) discs.push_back(marker);
     if (marker.type != Marker::TEXT_VIEW_FACING) continue;
     names.push_back(marker.text);
-    EXPECT_GT(marker.scale.z, 0.03 * 50.0);
+    EXPECT_GT(marker.scale.z, 0.025 * 50.0);
     EXPECT_EQ(marker.color.g, 1.0F);
     ASSERT_FALSE(discs.empty());
     EXPECT_LT(marker.pose.position.y, discs.back().pose.position.y);  // Before it.

@@ -31,7 +31,7 @@ struct GapOptions {
   double min_share_of_largest = 0.3;
 
   // At most so many are told, the largest first: each photo changes them, and more hide the wall.
-  int max_gaps = 10;
+  int max_gaps = 6;
 
   // One message per violated bound; empty if the options are usable.
   std::vector<std::string> Problems() const;
