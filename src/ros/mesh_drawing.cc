@@ -113,7 +113,7 @@ class GapSign {
 
   visualization_msgs::Marker Ring() const {
     auto ring = MakeMarker(visualization_msgs::Marker::LINE_STRIP, "gap", id_, header_);
-    ring.scale.x = (id_ == 0 ? 0.3 : 0.15) * text_height_;
+    ring.scale.x = (id_ == 0 ? 0.4 : 0.2) * text_height_;
     ring.color = Ink(kGapInk);
     for (int step = 0; step <= kRingSides; ++step) {
       ring.points.push_back(ToPointMsg(OnRing(2.0 * M_PI * step / kRingSides)));

@@ -14,6 +14,7 @@
 #include <QImage>
 #include <QLabel>
 #include <QPushButton>
+#include <QStackedWidget>
 #include <QTimer>
 #include <future>
 #include <optional>
@@ -68,7 +69,8 @@ class FlightPanel : public rviz::Panel {
   QWidget* BuildLayers();
   QWidget* BuildWantedGsd();
   QWidget* BuildGaps();
-  QWidget* BuildButtons();
+  QWidget* BuildSettings();
+  QWidget* BuildButtons(QStackedWidget* pages);
   void Connect();
   void SubscribeLegend();
   void ShowStatus();

@@ -51,8 +51,11 @@ void FlightPanel::BuildWindow() {
   column->setContentsMargins(8, 8, 8, 8);
   column->addWidget(BuildPhotos());
   column->addWidget(BuildLayers());
-  column->addWidget(BuildGaps(), /*stretch=*/1);
-  column->addWidget(BuildButtons());
+  auto* pages = new QStackedWidget;
+  pages->addWidget(BuildGaps());
+  pages->addWidget(BuildSettings());
+  column->addWidget(pages, /*stretch=*/1);
+  column->addWidget(BuildButtons(pages));
   answer_ = MakeLabel("answer", "font-weight: bold;");
   answer_->setVisible(false);
   column->addWidget(answer_);
@@ -150,32 +153,35 @@ QWidget* FlightPanel::BuildGaps() {
   return box;
 }
 
-// What is seldom touched in flight is folded away, so that more gaps are in view.
-QWidget* FlightPanel::BuildButtons() {
+// What is seldom touched in flight is behind the gaps.
+QWidget* FlightPanel::BuildSettings() {
   auto* box = new QWidget;
   auto* column = new QVBoxLayout(box);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(6);
-  auto* settings = new QWidget;
-  auto* settings_column = new QVBoxLayout(settings);
-  settings_column->setContentsMargins(0, 0, 0, 0);
-  settings_column->addWidget(BuildWantedGsd());
+  column->addWidget(BuildWantedGsd());
   QPushButton* color_blind = MakeButton("colour_blind", "Colours for the colour-blind");
   color_blind->setCheckable(true);
   connect(color_blind, &QPushButton::toggled, this, &FlightPanel::OnPalette);
-  settings_column->addWidget(color_blind);
-  settings->setVisible(false);
-  column->addWidget(settings);
-  auto* row = new QHBoxLayout;
+  column->addWidget(color_blind);
+  column->addStretch();
+  return box;
+}
+
+QWidget* FlightPanel::BuildButtons(QStackedWidget* pages) {
+  auto* box = new QWidget;
+  auto* row = new QHBoxLayout(box);
+  row->setContentsMargins(0, 0, 0, 0);
   QPushButton* whole = MakeButton("whole_view", "Whole map");
   connect(whole, &QPushButton::clicked, this, &FlightPanel::OnWholeView);
-  QPushButton* unfold = MakeButton("settings", "Settings");
-  unfold->setCheckable(true);
-  connect(unfold, &QPushButton::toggled, settings, &QWidget::setVisible);
+  QPushButton* settings = MakeButton("settings", "Settings");
+  settings->setCheckable(true);
+  connect(settings, &QPushButton::toggled, pages, [pages](bool is_on) {
+    pages->setCurrentIndex(is_on ? 1 : 0);
+  });
   save_ = MakeButton("save", "Save");
   connect(save_, &QPushButton::clicked, this, &FlightPanel::OnSave);
-  for (QPushButton* button : {whole, unfold, save_}) row->addWidget(button);
-  column->addLayout(row);
+  for (QPushButton* button : {whole, settings, save_}) row->addWidget(button);
   return box;
 }
 
