@@ -75,7 +75,7 @@ int Main(int num_photos, int num_landmarks) {
   SurfaceMesher surface{SurfaceOptions()};
   QualityMap quality{QualityOptions()};
   quality.SetCamera(PaperCamera());
-  const Measure measure{1.0, 3344.0, 0.5};
+  const Measure measure{1.0, 3344.0, 0.5, /*half_photo_px=*/1632.0};
   std::vector<Step> steps;
   for (MapDelta delta : deltas) {
     TurnToWall(&delta);
