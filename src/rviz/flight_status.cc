@@ -9,8 +9,9 @@
 namespace plumb::rviz_panel {
 namespace {
 
-// Nodes speak every second.
-constexpr double kSilentAfter_s = 4.0;
+// Nodes speak every second; where other programs kept both cores busy, the mesher was at work for
+// more than 4 s.
+constexpr double kSilentAfter_s = 8.0;
 
 const char* const kIngest = "camera_ingest";
 const char* const kMapper = "mapper";
