@@ -20,18 +20,6 @@ std::string Decimal(double value) {
   return text.str();
 }
 
-std::string Problem(const Gap& gap, const GapOptions& options, const Measure& measure) {
-  const bool is_metric = measure.metres_per_map_unit.has_value();
-  if (gap.share_unsure >= 0.5) {
-    if (gap.num_views == 0) return "No photo sees it.";
-    return "Only " + std::to_string(gap.num_views) +
-           (gap.num_views == 1 ? " photo sees it." : " photos see it.");
-  }
-  if (!is_metric) return "Too coarse, " + Decimal(gap.gsd) + " times the first photos' GSD.";
-  return "Too coarse, " + Decimal(gap.gsd) + " mm instead of " + Decimal(options.wanted_gsd_mm) +
-         " mm.";
-}
-
 }  // namespace
 
 Move MoveTo(const Gap& gap, const Rigid3& cam_from_map) {
@@ -39,10 +27,19 @@ Move MoveTo(const Gap& gap, const Rigid3& cam_from_map) {
   return {in_cam.x(), -in_cam.y(), in_cam.z()};
 }
 
-std::string Advice(const Gap& gap,
-                   const GapOptions& options,
-                   const Measure& measure,
-                   const Rigid3& cam_from_map) {
+std::string Problem(const Gap& gap, const GapOptions& options, const Measure& measure) {
+  const bool is_metric = measure.metres_per_map_unit.has_value();
+  if (gap.share_unsure >= 0.5) {
+    if (gap.num_views == 0) return "No photo sees it";
+    return "Only " + std::to_string(gap.num_views) +
+           (gap.num_views == 1 ? " photo sees it" : " photos see it");
+  }
+  if (!is_metric) return "Too coarse, " + Decimal(gap.gsd) + " times the first photos' GSD";
+  return "Too coarse, " + Decimal(gap.gsd) + " mm instead of " + Decimal(options.wanted_gsd_mm) +
+         " mm";
+}
+
+std::string Way(const Gap& gap, const Measure& measure, const Rigid3& cam_from_map) {
   const Move move = MoveTo(gap, cam_from_map);
   const double distance = (cam_from_map * gap.center_in_map).norm();
   const double scale = measure.metres_per_map_unit.value_or(1.0 / distance);
@@ -51,11 +48,20 @@ std::string Advice(const Gap& gap,
                                               {move.up, "up", "down"},
                                               {move.forward, "closer", "back"}}) {
     if (!(std::abs(length) >= kMinTold * distance)) continue;
-    way += (way.empty() ? " Fly " : ", ") + Decimal(scale * std::abs(length)) +
+    way += (way.empty() ? "" : ", ") + Decimal(scale * std::abs(length)) +
            (measure.metres_per_map_unit ? " m " : " x ") + (length > 0.0 ? towards : away);
   }
-  if (way.empty()) return Problem(gap, options, measure) + " Take a photo here.";
-  return Problem(gap, options, measure) + way +
+  return way;
+}
+
+std::string Advice(const Gap& gap,
+                   const GapOptions& options,
+                   const Measure& measure,
+                   const Rigid3& cam_from_map) {
+  const std::string problem = Problem(gap, options, measure);
+  const std::string way = Way(gap, measure, cam_from_map);
+  if (way.empty()) return problem + ". Take a photo here.";
+  return problem + ". Fly " + way +
          (measure.metres_per_map_unit ? "." : " (x: your distance to it).");
 }
 

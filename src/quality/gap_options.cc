@@ -20,6 +20,10 @@ std::vector<std::string> GapOptions::Problems() const {
                    "min_area_share",
                    "above 0 and at most 100",
                    min_area_share);
+  problems.Require(min_share_of_largest >= 0.0 && min_share_of_largest <= 1.0,
+                   "min_share_of_largest",
+                   "0 to 1",
+                   min_share_of_largest);
   problems.Require(max_gaps >= 0, "max_gaps", "not negative", max_gaps);
   return problems.Take();
 }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <queue>
 #include <utility>
 
 namespace plumb {
@@ -11,6 +13,9 @@ namespace {
 
 // Faces of one gap look the same way to within this.
 constexpr double kMinSameWay = 0.5;  // Cosine of 60 degrees.
+
+// From the middle of a block's square to its edge, in sides: a photo takes in whole blocks.
+constexpr double kHalfBlock = 0.5;
 
 struct BadFace {
   const FaceShape* shape;
@@ -22,6 +27,7 @@ struct BadBlock {
   BlockId id;
   std::vector<BadFace> faces;
   double area = 0.0;
+  Eigen::Vector3d center_in_map = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // Sum, weighted by area.
   bool is_taken = false;
 };
@@ -43,7 +49,9 @@ BadBlock FindBadFaces(const GapOptions& options,
     bad.faces.push_back({&block.shapes[i], &quality, is_unsure});
     bad.area += block.shapes[i].area;
     bad.normal += block.shapes[i].area * block.shapes[i].normal_in_map;
+    bad.center_in_map += block.shapes[i].area * block.shapes[i].center_in_map;
   }
+  if (bad.area > 0.0) bad.center_in_map /= bad.area;
   return bad;
 }
 
@@ -51,17 +59,40 @@ bool LookSameWay(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return a.dot(b) >= kMinSameWay * a.norm() * b.norm();
 }
 
-// The block and those around it that are in no gap yet and look the same way.
-std::vector<const BadBlock*> TakeAround(const BadBlock& seed,
-                                        std::map<BlockId, BadBlock>* bad_blocks) {
-  std::vector<const BadBlock*> taken;
+using BadBlocks = std::map<BlockId, BadBlock>;
+
+// The block and those around it that are in no gap yet and look the same way as `seed`.
+template <typename Blocks>  // BadBlocks or const BadBlocks.
+auto FreeAround(BlockId id, const BadBlock& seed, Blocks* bad_blocks) {
+  std::vector<decltype(&bad_blocks->begin()->second)> around;
   for (int i = 0; i < 27; ++i) {
-    const auto found =
-        bad_blocks->find({seed.id.x + i % 3 - 1, seed.id.y + i / 3 % 3 - 1, seed.id.z + i / 9 - 1});
+    const auto found = bad_blocks->find({id.x + i % 3 - 1, id.y + i / 3 % 3 - 1, id.z + i / 9 - 1});
     if (found == bad_blocks->end() || found->second.is_taken) continue;
-    if (!LookSameWay(seed.normal, found->second.normal)) continue;
-    found->second.is_taken = true;
-    taken.push_back(&found->second);
+    if (LookSameWay(seed.normal, found->second.normal)) around.push_back(&found->second);
+  }
+  return around;
+}
+
+// Of a gap that would begin with this block, near enough to choose by.
+double AreaAround(const BadBlock& seed, const BadBlocks& bad_blocks) {
+  double area = 0.0;
+  for (const BadBlock* block : FreeAround(seed.id, seed, &bad_blocks)) {
+    area += block->area;
+  }
+  return area;
+}
+
+// The blocks that hang together with the seed, are in no gap yet, look the same way and have their
+// middle within `radius` of the seed's. Marks them as taken.
+std::vector<const BadBlock*> TakeAround(BadBlock* seed, double radius, BadBlocks* bad_blocks) {
+  seed->is_taken = true;
+  std::vector<const BadBlock*> taken = {seed};
+  for (std::size_t next = 0; next < taken.size(); ++next) {
+    for (BadBlock* block : FreeAround(taken[next]->id, *seed, bad_blocks)) {
+      if ((block->center_in_map - seed->center_in_map).norm() > radius) continue;
+      block->is_taken = true;
+      taken.push_back(block);
+    }
   }
   return taken;
 }
@@ -112,35 +143,69 @@ Gap Gather(const std::vector<const BadBlock*>& blocks, double wanted_gsd, const 
   return gap;
 }
 
+// Gives the block with the largest area around it that is in no gap yet, then the next one. What is
+// taken meanwhile only makes areas smaller: it is enough to look again at what comes first.
+class SeedQueue {
+ public:
+  explicit SeedQueue(BadBlocks* bad_blocks) : bad_blocks_(*bad_blocks) {
+    for (auto& [id, block] : *bad_blocks) {
+      order_.emplace(AreaAround(block, bad_blocks_), -static_cast<std::ptrdiff_t>(blocks_.size()));
+      blocks_.push_back(&block);
+    }
+  }
+
+  // Null once all are taken.
+  BadBlock* Next() {
+    while (!order_.empty()) {
+      const auto [area_before, minus_idx] = order_.top();
+      order_.pop();
+      BadBlock* block = blocks_[static_cast<std::size_t>(-minus_idx)];
+      if (block->is_taken) continue;
+      const double area = AreaAround(*block, bad_blocks_);
+      if (order_.empty() || area >= order_.top().first) return block;
+      order_.emplace(area, minus_idx);
+    }
+    return nullptr;
+  }
+
+ private:
+  const BadBlocks& bad_blocks_;
+  std::vector<BadBlock*> blocks_;  // By id: equal areas come in their order.
+  std::priority_queue<std::pair<double, std::ptrdiff_t>> order_;
+};
+
 }  // namespace
 
 std::vector<Gap> FindGaps(const GapOptions& options,
                           const std::map<BlockId, QualityBlock>& blocks,
                           const Measure& measure,
                           double block_side) {
-  std::map<BlockId, BadBlock> bad_blocks;
-  std::vector<BadBlock*> by_area;
+  BadBlocks bad_blocks;
   for (const auto& [id, block] : blocks) {
     BadBlock bad = FindBadFaces(options, block, measure);
     if (!(bad.area > 0.0 && bad.normal.norm() > 0.0)) continue;
-    by_area.push_back(&bad_blocks.emplace(id, std::move(bad)).first->second);
-    by_area.back()->id = id;
+    bad.id = id;
+    bad_blocks.emplace(id, std::move(bad));
   }
-  std::stable_sort(by_area.begin(), by_area.end(), [](const BadBlock* a, const BadBlock* b) {
-    return a->area > b->area;
-  });
   std::vector<Gap> gaps;
+  const double wanted_gsd = WantedGsd(options, measure);
   const double min_area = options.min_area_share * block_side * block_side;
-  for (BadBlock* seed : by_area) {
-    if (seed->is_taken) continue;
-    const std::vector<const BadBlock*> gathered = TakeAround(*seed, &bad_blocks);
-    Gap gap = Gather(gathered, WantedGsd(options, measure), measure);
+  SeedQueue seeds(&bad_blocks);
+  while (BadBlock* seed = seeds.Next()) {
+    const Gap alone = Gather({seed}, wanted_gsd, measure);
+    const double distance = (alone.camera_in_map - alone.center_in_map).norm();
+    const double radius = measure.PhotoRadiusAt(distance) - kHalfBlock * block_side;
+    Gap gap = Gather(TakeAround(seed, radius, &bad_blocks), wanted_gsd, measure);
     if (gap.area >= min_area) gaps.push_back(std::move(gap));
   }
   std::stable_sort(
       gaps.begin(), gaps.end(), [](const Gap& a, const Gap& b) { return a.area > b.area; });
-  const auto max_gaps = static_cast<std::size_t>(options.max_gaps);
-  if (gaps.size() > max_gaps) gaps.erase(gaps.begin() + options.max_gaps, gaps.end());
+  std::size_t num_told = 0;
+  while (num_told < gaps.size() && num_told < static_cast<std::size_t>(options.max_gaps) &&
+         gaps[num_told].area >= options.min_share_of_largest * gaps[0].area) {
+    ++num_told;
+  }
+  gaps.resize(num_told);
   return gaps;
 }
 

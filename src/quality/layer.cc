@@ -85,6 +85,10 @@ double Measure::GsdAt(double distance) const {
 
 double Measure::DistanceFor(double gsd) const { return gsd / GsdAt(1.0); }
 
+double Measure::PhotoRadiusAt(double distance) const {
+  return distance * half_photo_px / focal_length_px;
+}
+
 double Measure::Gsd(const FaceQuality& quality) const {
   return GsdAt(focal_length_px * quality.gsd);
 }

@@ -11,9 +11,14 @@ namespace plumb {
 namespace {
 
 constexpr int kLeft_px = 40;
-constexpr int kRight_px = kLegendWidth_px - 130;  // Then the field of unseen faces.
-constexpr int kTop_px = 52;
-constexpr int kBottom_px = 96;
+constexpr int kRight_px = kLegendWidth_px - 165;  // Then the field of unseen faces.
+constexpr int kTop_px = 60;
+constexpr int kBottom_px = 112;
+constexpr int kTicks_px = 142;  // The middle of their numbers.
+
+// Sizes of letters. The panel shows the picture half as large: there they are 16 px, as the others.
+constexpr double kText = 1.1;
+constexpr double kSmallText = 0.95;
 
 const cv::Scalar kInk(20, 20, 20);
 
@@ -26,12 +31,13 @@ LegendText TextOf(Layer layer, bool is_metric) {
   switch (layer) {
     case Layer::kGsd:
       if (is_metric) return {"GSD [mm per pixel]: blue coarse, red fine", {10, 5, 3, 2, 1}};
-      return {"NOT METRIC YET - GSD in multiples of the first photos'", {3, 2, 1, 0.5, 0.3}};
+      return {"NOT METRIC YET: GSD, x the first photos'", {3, 2, 1, 0.5, 0.3}};
     case Layer::kRedundancy:
-      return {"Cameras that see it", {1, 2, 3, 5, 10, 20, 30}};
+      return {"Cameras that see it: blue few, red many", {1, 2, 3, 5, 10, 20, 30}};
     case Layer::kAccuracy:
-      if (is_metric) return {"Predicted standard deviation [mm]", {20, 10, 5, 2, 1, 0.5}};
-      return {"NOT METRIC YET - accuracy in pixels of the first photos", {10, 3, 1, 0.3, 0.1}};
+      if (is_metric)
+        return {"Standard deviation [mm]: blue poor, red good", {20, 10, 5, 2, 1, 0.5}};
+      return {"NOT METRIC YET: accuracy, px of the first photos", {10, 3, 1, 0.3, 0.1}};
     case Layer::kPlain:
       return {"Shape only", {}};
   }
@@ -39,7 +45,7 @@ LegendText TextOf(Layer layer, bool is_metric) {
 }
 
 void Write(const std::string& text, cv::Point middle, double size, cv::Mat* picture) {
-  const int thickness = 2;
+  const int thickness = 3;
   const cv::Size box = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, size, thickness, nullptr);
   cv::putText(*picture,
               text,
@@ -69,11 +75,11 @@ void DrawBar(Palette palette, cv::Mat* picture) {
         .setTo(cv::Scalar(color[0], color[1], color[2]));
   }
   cv::rectangle(*picture, {kLeft_px, kTop_px}, {kRight_px, kBottom_px}, kInk, 2);
-  const cv::Rect unseen(kRight_px + 30, kTop_px, 70, kBottom_px - kTop_px);
+  const cv::Rect unseen(kLegendWidth_px - 102, kTop_px, 70, kBottom_px - kTop_px);
   cv::rectangle(
       *picture, unseen, cv::Scalar(kUnseenColor[0], kUnseenColor[1], kUnseenColor[2]), cv::FILLED);
   cv::rectangle(*picture, unseen, kInk, 2);
-  Write("unseen", {unseen.x + unseen.width / 2, 122}, 0.65, picture);
+  Write("unseen", {unseen.x + unseen.width / 2, kTicks_px}, kSmallText, picture);
 }
 
 void DrawWanted(double place, cv::Mat* picture) {
@@ -94,7 +100,7 @@ cv::Mat DrawLegend(Layer layer,
   LegendText text = TextOf(layer, is_metric);
   cv::Mat picture(kLegendHeight_px, kLegendWidth_px, CV_8UC3, cv::Scalar::all(255));
   if (layer == Layer::kPlain) {
-    Write(text.title, {kLegendWidth_px / 2, kLegendHeight_px / 2}, 0.9, &picture);
+    Write(text.title, {kLegendWidth_px / 2, kLegendHeight_px / 2}, kText, &picture);
     return picture;
   }
   const Scale scale = ScaleOf(layer, is_metric);
@@ -102,16 +108,17 @@ cv::Mat DrawLegend(Layer layer,
   for (const double tick : text.ticks) {
     const int column = ColumnOf(PlaceOnScale(scale, tick));
     cv::line(picture, {column, kBottom_px}, {column, kBottom_px + 8}, kInk, 2);
-    Write(NumberText(tick), {column, 122}, 0.8, &picture);
+    Write(NumberText(tick), {column, kTicks_px}, kText, &picture);
   }
-  if (palette == Palette::kColorBlind && layer == Layer::kGsd && is_metric) {
-    text.title = "GSD [mm per pixel]: blue coarse, yellow fine";
+  const std::size_t red = text.title.find(", red ");
+  if (palette == Palette::kColorBlind && red != std::string::npos) {
+    text.title.replace(red, 6, ", yellow ");
   }
   if (layer == Layer::kGsd) {
     const double wanted = is_metric ? options.wanted_gsd_mm : options.wanted_relative_gsd;
     DrawWanted(PlaceOnScale(scale, wanted), &picture);
   }
-  Write(text.title, {kLegendWidth_px / 2, 22}, 0.8, &picture);
+  Write(text.title, {kLegendWidth_px / 2, 24}, kText, &picture);
   return picture;
 }
 

@@ -48,12 +48,14 @@ plumbline::Gap ToGapMsg(const Gap& gap,
   msg.is_unsure = static_cast<std::uint8_t>(gap.share_unsure >= 0.5);
   msg.num_views = static_cast<std::uint32_t>(gap.num_views);
   msg.gsd = gap.gsd;
+  msg.problem = Problem(gap, options, measure);
   msg.camera_in_map = ToPointMsg(gap.camera_in_map);
   if (!newest_cam_from_map) return msg;
   const Move move = MoveTo(gap, *newest_cam_from_map);
   msg.right_m = scale * move.right;
   msg.up_m = scale * move.up;
   msg.forward_m = scale * move.forward;
+  msg.way = Way(gap, measure, *newest_cam_from_map);
   msg.advice = Advice(gap, options, measure, *newest_cam_from_map);
   return msg;
 }

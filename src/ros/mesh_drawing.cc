@@ -19,13 +19,19 @@ const Eigen::Vector3d kTowardsLight(-0.243, -0.908, 0.342);
 constexpr double kAmbient = 0.45;
 
 // Dark magenta: on neither palette, and strong on a light background.
-constexpr std::array<float, 3> kGapInk = {0.65F, 0.0F, 0.55F};
+constexpr std::array<float, 3> kGapInk = {0.6F, 0.0F, 0.5F};
 constexpr std::array<float, 3> kRefusedInk = {0.8F, 0.0F, 0.0F};
+constexpr std::array<float, 3> kWhite = {1.0F, 1.0F, 1.0F};
 
-constexpr int kRingSides = 24;
+constexpr int kRingSides = 32;
 
-// The worst gaps show the photo to take; more of them would hide the wall.
-constexpr std::size_t kNumFramedGaps = 3;
+// Letters are legible where the whole flight is in view: one in so many of its extent.
+constexpr double kTextPerExtent = 0.027;
+
+// Of the disc behind a gap's name, and how far the name is before it, in heights of a letter: it is
+// before the disc even where that is seen from 25 degrees aside.
+constexpr double kDiscDiameter = 2.2;
+constexpr double kTextAhead = 0.5;
 
 std_msgs::ColorRGBA Ink(const std::array<float, 3>& rgb) {
   std_msgs::ColorRGBA color;
@@ -66,21 +72,6 @@ std::array<Eigen::Vector3d, 2> AxesOf(const Eigen::Vector3d& normal) {
   return {right, normal.cross(right).normalized()};
 }
 
-visualization_msgs::Marker Ring(const Gap& gap, int id, const std_msgs::Header& header) {
-  const double radius = std::sqrt(gap.area / M_PI);
-  const auto [right, up] = AxesOf(gap.normal_in_map);
-  auto ring = MakeMarker(visualization_msgs::Marker::LINE_STRIP, "gap", id, header);
-  ring.scale.x = 0.12 * radius;
-  ring.color = Ink(kGapInk);
-  const Eigen::Vector3d center = gap.center_in_map + 0.3 * radius * gap.normal_in_map;
-  for (int step = 0; step <= kRingSides; ++step) {
-    const double angle = 2.0 * M_PI * step / kRingSides;
-    ring.points.push_back(
-        ToPointMsg(center + radius * (std::cos(angle) * right + std::sin(angle) * up)));
-  }
-  return ring;
-}
-
 visualization_msgs::Marker Text(const std::string& text,
                                 const Eigen::Vector3d& position,
                                 double height,
@@ -94,6 +85,80 @@ visualization_msgs::Marker Text(const std::string& text,
   marker.color = Ink({0.0F, 0.0F, 0.0F});
   return marker;
 }
+
+// Where all of the flight and its gaps lie: the length of the box's diagonal.
+double ExtentOf(const std::vector<Gap>& gaps, const std::map<PhotoId, Rigid3>& cam_from_map) {
+  Eigen::AlignedBox3d box;
+  for (const Gap& gap : gaps) box.extend(gap.center_in_map).extend(gap.camera_in_map);
+  for (const auto& [photo, pose] : cam_from_map) box.extend(pose.TargetOriginInSource());
+  return box.diagonal().norm();
+}
+
+// Signs stand upright, but those of gaps that lie flat.
+Eigen::Vector3d Upright(const Eigen::Vector3d& normal) {
+  const Eigen::Vector3d level(normal.x(), normal.y(), 0.0);
+  return level.norm() < 0.5 ? normal : level.normalized();
+}
+
+// A gap's ring, and at the top of it the name on a disc; a target's plate is white and square.
+class GapSign {
+ public:
+  GapSign(const Gap& gap, int id, double text_height, const std_msgs::Header& header)
+      : gap_(gap),
+        id_(id),
+        text_height_(text_height),
+        facing_(Upright(gap.normal_in_map)),
+        radius_(std::max(std::sqrt(gap.area / M_PI), 0.5 * kDiscDiameter * text_height)),
+        header_(header) {}
+
+  visualization_msgs::Marker Ring() const {
+    auto ring = MakeMarker(visualization_msgs::Marker::LINE_STRIP, "gap", id_, header_);
+    ring.scale.x = (id_ == 0 ? 0.4 : 0.2) * text_height_;
+    ring.color = Ink(kGapInk);
+    for (int step = 0; step <= kRingSides; ++step) {
+      ring.points.push_back(ToPointMsg(OnRing(2.0 * M_PI * step / kRingSides)));
+    }
+    return ring;
+  }
+
+  visualization_msgs::Marker Disc() const {
+    auto disc = MakeMarker(visualization_msgs::Marker::CYLINDER, "gap_disc", id_, header_);
+    disc.pose.position = ToPointMsg(Top());
+    const auto turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), facing_);
+    disc.pose.orientation.x = turn.x();
+    disc.pose.orientation.y = turn.y();
+    disc.pose.orientation.z = turn.z();
+    disc.pose.orientation.w = turn.w();
+    disc.scale.x = disc.scale.y = kDiscDiameter * text_height_;
+    disc.scale.z = 0.05 * text_height_;
+    disc.color = Ink(kGapInk);
+    return disc;
+  }
+
+  visualization_msgs::Marker Name() const {
+    const Eigen::Vector3d place = Top() + kTextAhead * text_height_ * facing_;
+    auto name = Text("G" + std::to_string(id_ + 1), place, text_height_, "gap_name", id_, header_);
+    name.color = Ink(kWhite);
+    return name;
+  }
+
+ private:
+  Eigen::Vector3d OnRing(double angle) const {
+    const auto [right, up] = AxesOf(gap_.normal_in_map);
+    return gap_.center_in_map + 0.3 * radius_ * gap_.normal_in_map +
+           radius_ * (std::cos(angle) * right + std::sin(angle) * up);
+  }
+
+  // A little before the ring.
+  Eigen::Vector3d Top() const { return OnRing(0.5 * M_PI) + 0.3 * text_height_ * facing_; }
+
+  const Gap& gap_;
+  int id_;
+  double text_height_;
+  Eigen::Vector3d facing_;  // Of the disc.
+  double radius_;
+  const std_msgs::Header& header_;
+};
 
 // The frame of a photo from the place advised, and the line of sight.
 visualization_msgs::Marker PhotoFrame(const Gap& gap, int id, const std_msgs::Header& header) {
@@ -191,25 +256,21 @@ visualization_msgs::Marker DeleteAll(const std_msgs::Header& header) {
 }
 
 visualization_msgs::MarkerArray DrawGaps(const std::vector<Gap>& gaps,
-                                         const std::optional<Rigid3>& newest_cam_from_map,
+                                         const std::map<PhotoId, Rigid3>& cam_from_map,
                                          const std_msgs::Header& header) {
   visualization_msgs::MarkerArray array;
   array.markers.push_back(DeleteAll(header));
+  if (gaps.empty()) return array;
+  const double text_height = kTextPerExtent * ExtentOf(gaps, cam_from_map);
   for (std::size_t i = 0; i < gaps.size(); ++i) {
-    const Gap& gap = gaps[i];
-    const int id = static_cast<int>(i);
-    const double radius = std::sqrt(gap.area / M_PI);
-    array.markers.push_back(Ring(gap, id, header));
-    array.markers.push_back(Text(std::to_string(i + 1),
-                                 gap.center_in_map + radius * gap.normal_in_map,
-                                 radius,
-                                 "gap_number",
-                                 id,
-                                 header));
-    if (i < kNumFramedGaps) array.markers.push_back(PhotoFrame(gap, id, header));
+    const GapSign sign(gaps[i], static_cast<int>(i), text_height, header);
+    for (const auto& marker : {sign.Ring(), sign.Disc(), sign.Name()}) {
+      array.markers.push_back(marker);
+    }
   }
-  if (!gaps.empty() && newest_cam_from_map) {
-    array.markers.push_back(WayTo(gaps[0], *newest_cam_from_map, header));
+  array.markers.push_back(PhotoFrame(gaps[0], 0, header));
+  if (!cam_from_map.empty()) {
+    array.markers.push_back(WayTo(gaps[0], cam_from_map.rbegin()->second, header));
   }
   return array;
 }

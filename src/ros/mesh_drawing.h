@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,10 +30,10 @@ visualization_msgs::Marker DrawBlock(const QualityBlock& block,
 // Deletes whatever its topic has shown.
 visualization_msgs::Marker DeleteAll(const std_msgs::Header& header);
 
-// A ring around each gap with its number, the frames of the photos to take of the first three, and
-// an arrow from the newest camera to that of the first gap.
+// A ring around each gap with its name, "G1" the worst, on a disc; of the worst the frame of the
+// photo to take and an arrow from the newest camera to there.
 visualization_msgs::MarkerArray DrawGaps(const std::vector<Gap>& gaps,
-                                         const std::optional<Rigid3>& newest_cam_from_map,
+                                         const std::map<PhotoId, Rigid3>& cam_from_map,
                                          const std_msgs::Header& header);
 
 struct RefusedPhoto {

@@ -103,8 +103,8 @@ void MeshPublisher::PublishLegends(const MeshLook& look) {
 }
 
 void MeshPublisher::PublishGaps(const std::vector<Gap>& gaps,
-                                const std::optional<Rigid3>& newest_cam_from_map) {
-  gaps_publisher_.publish(DrawGaps(gaps, newest_cam_from_map, HeaderNow()));
+                                const std::map<PhotoId, Rigid3>& cam_from_map) {
+  gaps_publisher_.publish(DrawGaps(gaps, cam_from_map, HeaderNow()));
 }
 
 void MeshPublisher::PublishRefused(const std::map<PhotoId, RefusedPhoto>& photos,

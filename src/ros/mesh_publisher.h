@@ -42,7 +42,7 @@ class MeshPublisher {
   bool HasNewListener() const;
 
   void PublishLegends(const MeshLook& look);
-  void PublishGaps(const std::vector<Gap>& gaps, const std::optional<Rigid3>& newest_cam_from_map);
+  void PublishGaps(const std::vector<Gap>& gaps, const std::map<PhotoId, Rigid3>& cam_from_map);
   void PublishRefused(const std::map<PhotoId, RefusedPhoto>& photos,
                       const std::map<PhotoId, Rigid3>& cam_from_map);
 

@@ -223,7 +223,7 @@ void MesherRos::TellNow() {
   msg.header = publisher_.HeaderNow();
   msg.map_sequence = surface_->map_sequence();
   gaps_publisher_.publish(msg);
-  publisher_.PublishGaps(gaps, NewestView());
+  publisher_.PublishGaps(gaps, quality_->views());
 }
 
 plumbline::MeshDelta MesherRos::MakeMessage(const std::vector<BlockId>& blocks,
@@ -249,7 +249,9 @@ Measure MesherRos::MakeMeasure() const {
   measure.metres_per_map_unit = metres_per_map_unit_;
   measure.noise_px = quality_->noise_px();
   // Without a camera no face is seen, and the focal length has no effect.
-  measure.focal_length_px = quality_->camera() ? quality_->camera()->MeanFocalLength() : 1.0;
+  const std::optional<Camera>& camera = quality_->camera();
+  measure.focal_length_px = camera ? camera->MeanFocalLength() : 1.0;
+  if (camera) measure.half_photo_px = 0.5 * std::min(camera->width_px(), camera->height_px());
   return measure;
 }
 

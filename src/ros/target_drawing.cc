@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
@@ -189,6 +190,9 @@ class Drawer {
 
   static std::string LabelOf(const TargetResidual& target) {
     std::ostringstream label;
+    if (!target.name.empty() && std::isdigit(static_cast<unsigned char>(target.name[0])) != 0) {
+      label << 'T';  // A bare number could be anything's.
+    }
     label << target.name << std::fixed << std::setprecision(1);
     if (target.state == TargetResidual::GOOD) {
       label << ": " << target.error_mm << " mm";

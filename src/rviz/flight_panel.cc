@@ -40,19 +40,26 @@ double Now_s() { return ros::SteadyTime::now().toSec(); }
 const char* StyleOf(Lamp lamp) {
   switch (lamp) {
     case Lamp::kGreen:
-      return "background: #0b7a25; color: white;";
+      return "background: #35d04a; color: black;";
     case Lamp::kYellow:
       return "background: #ffd400; color: black;";
     case Lamp::kRed:
-      return "background: #c40000; color: white;";
+      return "background: #b00000; color: white;";
     case Lamp::kDark:
       break;
   }
   return "background: #404040; color: white;";
 }
 
-QString Text(const std::optional<int>& count) {
-  return count ? QString::number(*count) : QStringLiteral("–");
+// A number over the word for it.
+QString Cell(const QString& number, const char* word) {
+  return QStringLiteral(
+             "<td align='center'><span style='font-size: 22px'><b>%1</b></span><br>%2</td>")
+      .arg(number, word);
+}
+
+QString Cell(const std::optional<int>& count, const char* word) {
+  return Cell(count ? QString::number(*count) : QStringLiteral("–"), word);
 }
 
 // An orbiting view that is there already is kept: RViz may still have news of it in its queue.
@@ -137,38 +144,45 @@ void FlightPanel::OnTimer() {
 
 void FlightPanel::ShowStatus() {
   const double now_s = Now_s();
-  lamp_->setStyleSheet(StyleOf(status_.lamp()));
+  const QString style = StyleOf(status_.lamp());
+  if (lamp_->styleSheet() != style) lamp_->setStyleSheet(style);
   lamp_->setText(QString::fromStdString(status_.sentence()));
-  counts_->setText(QStringLiteral("<b>%1</b> taken &nbsp; <b>%2</b> accepted<br><b>%3</b> waiting "
-                                  "&nbsp; <b>%4</b> refused")
-                       .arg(Text(status_.num_taken(now_s)),
-                            Text(status_.num_accepted(now_s)),
-                            Text(status_.num_waiting(now_s)),
-                            Text(status_.num_refused(now_s))));
   const std::optional<double> behind_s = status_.seconds_behind(now_s);
-  behind_->setText(
-      behind_s
-          ? QStringLiteral("<b>%1 s</b> behind the camera").arg(QString::number(*behind_s, 'f', 1))
-          : QStringLiteral("– s behind the camera"));
+  counts_->setText(
+      "<table width='100%'><tr>" + Cell(status_.num_taken(now_s), "taken") +
+      Cell(status_.num_accepted(now_s), "accepted") + Cell(status_.num_waiting(now_s), "waiting") +
+      Cell(status_.num_refused(now_s), "refused") +
+      Cell(behind_s ? QString::number(*behind_s, 'f', 1) + " s" : QStringLiteral("–"), "behind") +
+      "</tr></table>");
   trouble_->setText(QString::fromStdString(status_.trouble(now_s)));
   trouble_->setVisible(!trouble_->text().isEmpty());
+  const NextStep next = NextStepOf(status_, gaps_);
+  next_->Show(next);
+  const std::size_t first_listed = next.kind == NextStep::Kind::kGap ? 1 : 0;
+  if (first_listed == first_listed_gap_) return;
+  first_listed_gap_ = first_listed;
+  ShowGaps();
 }
 
 void FlightPanel::OnGaps(const plumbline::Gaps& msg) {
   gaps_ = msg;
-  gap_list_->clear();
-  for (std::size_t i = 0; i < msg.gaps.size(); ++i) {
-    gap_list_->addItem(
-        QStringLiteral("%1  %2").arg(i + 1).arg(QString::fromStdString(msg.gaps[i].advice)));
-  }
-  gaps_title_->setText(msg.gaps.empty() ? QStringLiteral("No gaps.")
-                                        : QStringLiteral("Worst gaps – click to look there"));
-  wanted_unit_->setText(msg.is_metric != 0 ? QStringLiteral("mm per pixel")
-                                           : QStringLiteral("x the first photos' (not metric)"));
+  ShowStatus();
+  ShowGaps();
+  wanted_unit_->setText(msg.is_metric != 0 ? QStringLiteral("Wanted GSD\n[mm per pixel]")
+                                           : QStringLiteral("Wanted GSD\n[x first photos']"));
   if (wanted_gsd_->hasFocus()) return;  // It is being typed in.
   wanted_gsd_->blockSignals(true);
   wanted_gsd_->setValue(msg.wanted_gsd);
   wanted_gsd_->blockSignals(false);
+}
+
+// The one that the next step leads to is not told twice.
+void FlightPanel::ShowGaps() {
+  if (!gaps_) return;
+  gap_list_->Show(*gaps_, first_listed_gap_);
+  const bool is_any = gaps_->gaps.size() > first_listed_gap_;
+  gaps_title_->setText(is_any ? QStringLiteral("Then: press to look there")
+                              : QStringLiteral("No other gaps"));
 }
 
 void FlightPanel::OnLegend(const sensor_msgs::Image& msg) {
@@ -181,8 +195,20 @@ void FlightPanel::OnLegend(const sensor_msgs::Image& msg) {
                      static_cast<int>(msg.height),
                      static_cast<int>(msg.step),
                      QImage::Format_RGB888);
-  legend_->setPixmap(QPixmap::fromImage(image).scaledToWidth(std::max(200, legend_->width()),
-                                                             Qt::SmoothTransformation));
+  legend_image_ = image.copy();
+  ShowLegend();
+}
+
+// A picture must not make the panel wider.
+void FlightPanel::ShowLegend() {
+  if (legend_image_.isNull()) return;
+  legend_->setPixmap(QPixmap::fromImage(
+      legend_image_.scaled(legend_->size(), Qt::KeepAspectRatio, Qt::SmoothTransformation)));
+}
+
+void FlightPanel::resizeEvent(QResizeEvent* event) {
+  rviz::Panel::resizeEvent(event);
+  ShowLegend();
 }
 
 void FlightPanel::OnLayer(int layer) {
@@ -233,6 +259,7 @@ void FlightPanel::OnSave() {
   const std::string service = namespace_ + "/finish";
   save_->setEnabled(false);
   answer_->setText(QStringLiteral("Saving …"));
+  answer_->setVisible(true);
   save_answer_ = InThread([service]() -> Answer {
     std_srvs::Trigger request;
     if (!ros::service::call(service, request)) return {false, "The mapper does not answer."};
@@ -246,20 +273,21 @@ void FlightPanel::ShowAnswer(std::future<Answer>* answer) {
   if (answer->wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
   const Answer said = answer->get();
   answer_->setText(QString::fromStdString(said.text));
-  answer_->setStyleSheet(said.is_good ? "color: #0b7a25;" : "color: #c40000;");
+  answer_->setVisible(!said.text.empty());
+  answer_->setStyleSheet(said.is_good ? "color: #08611c;" : "color: #b00000;");
   if (!save_answer_.valid()) save_->setEnabled(true);
 }
 
 // Looks at the gap straight on, from a little behind where its photo is to be taken.
-void FlightPanel::OnGapClicked(int row) {
-  if (row < 0 || static_cast<std::size_t>(row) >= gaps_.gaps.size()) return;
-  const plumbline::Gap& gap = gaps_.gaps[static_cast<std::size_t>(row)];
+void FlightPanel::LookAt(std::size_t index) {
+  if (!gaps_ || index >= gaps_->gaps.size()) return;
+  const plumbline::Gap& gap = gaps_->gaps[index];
   const geometry_msgs::Point& center = gap.center_in_map;
   const double distance = std::sqrt(std::pow(gap.camera_in_map.x - center.x, 2) +
                                     std::pow(gap.camera_in_map.y - center.y, 2) +
                                     std::pow(gap.camera_in_map.z - center.z, 2));
   rviz::ViewController* view = OrbitView(vis_manager_->getViewManager());
-  view->subProp("Target Frame")->setValue(QString::fromStdString(gaps_.header.frame_id));
+  view->subProp("Target Frame")->setValue(QString::fromStdString(gaps_->header.frame_id));
   view->subProp("Focal Point")->subProp("X")->setValue(center.x);
   view->subProp("Focal Point")->subProp("Y")->setValue(center.y);
   view->subProp("Focal Point")->subProp("Z")->setValue(center.z);

@@ -10,17 +10,20 @@
 #include <sensor_msgs/Image.h>
 
 #include <QButtonGroup>
-#include <QCheckBox>
 #include <QDoubleSpinBox>
+#include <QImage>
 #include <QLabel>
-#include <QListWidget>
 #include <QPushButton>
+#include <QStackedWidget>
 #include <QTimer>
 #include <future>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "rviz/flight_status.h"
+#include "rviz/gap_list.h"
+#include "rviz/next_box.h"
 
 namespace rviz {
 class Display;
@@ -28,9 +31,10 @@ class Display;
 
 namespace plumb::rviz_panel {
 
-// For the pilot: what became of the last photo, how far the mapper is behind, what the colours
-// mean, and where to fly next. Large and black on white, for the sun. Lives in RViz's thread, in
-// which ROS calls it back; services are asked in threads of their own.
+// For the pilot: what became of the last photo, what to do next, how far the mapper is behind, what
+// the colours mean, and the other gaps. For the sun and for gloves: letters of 16 px and more, at
+// least 7:1 against what is behind them; whatever is pressed is 44 px high. Lives in RViz's thread,
+// in which ROS calls it back; services are asked in threads of their own.
 class FlightPanel : public rviz::Panel {
   Q_OBJECT
 
@@ -42,11 +46,13 @@ class FlightPanel : public rviz::Panel {
   void load(const rviz::Config& config) override;
   void save(rviz::Config config) const override;
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private Q_SLOTS:
   void OnLayer(int layer);
   void OnWantedGsd();
   void OnPalette(bool is_color_blind);
-  void OnGapClicked(int row);
   void OnWholeView();
   void OnSave();
   void OnTimer();
@@ -61,11 +67,17 @@ class FlightPanel : public rviz::Panel {
   void BuildWindow();
   QWidget* BuildPhotos();
   QWidget* BuildLayers();
+  QWidget* BuildWantedGsd();
   QWidget* BuildGaps();
+  QWidget* BuildSettings();
+  QWidget* BuildButtons(QStackedWidget* pages);
   void Connect();
   void SubscribeLegend();
   void ShowStatus();
+  void ShowGaps();
   void ShowLayer();
+  void ShowLegend();
+  void LookAt(std::size_t index);
   void ShowAnswer(std::future<Answer>* answer);
   void AskDisplay(double wanted_gsd, const std::string& palette);
   rviz::Display* DisplayOf(const std::string& layer);
@@ -78,7 +90,9 @@ class FlightPanel : public rviz::Panel {
   std::string namespace_ = "/plumbline";
   int layer_ = 0;
   FlightStatus status_;
-  plumbline::Gaps gaps_;
+  std::optional<plumbline::Gaps> gaps_;
+  std::size_t first_listed_gap_ = 0;
+  QImage legend_image_;
 
   ros::NodeHandle handle_;
   std::vector<ros::Subscriber> subscribers_;
@@ -88,16 +102,15 @@ class FlightPanel : public rviz::Panel {
   QTimer* timer_;
 
   QLabel* lamp_;
+  NextBox* next_;
   QLabel* counts_;
-  QLabel* behind_;
   QLabel* trouble_;
   QButtonGroup* layers_;
   QLabel* legend_;
   QLabel* wanted_unit_;
   QDoubleSpinBox* wanted_gsd_;
-  QCheckBox* is_color_blind_;
   QLabel* gaps_title_;
-  QListWidget* gap_list_;
+  GapList* gap_list_;
   QPushButton* save_;
   QLabel* answer_;
 };

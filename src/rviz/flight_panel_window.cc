@@ -11,16 +11,22 @@ namespace {
 
 // Black on white, and letters that are read at arm's length in the sun.
 const char* const kStyle =
-    "QWidget { background: white; color: black; font-size: 17px; }"
-    "QPushButton { border: 2px solid black; border-radius: 4px; padding: 7px; font-weight: bold; }"
+    "QWidget { background: white; color: black; font-size: 16px; }"
+    "QPushButton { border: 2px solid black; border-radius: 4px; padding: 4px; font-weight: bold;"
+    " min-height: 38px; }"
     "QPushButton:checked { background: black; color: white; }"
-    "QPushButton:pressed { background: #505050; color: white; }"
-    "QPushButton:disabled { color: #707070; border-color: #707070; }"
-    "QListWidget { border: 2px solid black; font-size: 16px; }"
-    "QListWidget::item { padding: 5px; border-bottom: 1px solid #a0a0a0; }"
-    "QListWidget::item:selected { background: black; color: white; }"
-    "QDoubleSpinBox { border: 2px solid black; padding: 4px; font-weight: bold; }"
-    "QCheckBox::indicator { width: 22px; height: 22px; }";
+    "QPushButton:pressed { background: #404040; color: white; }"
+    "QPushButton:disabled { color: #505050; border-color: #505050; }"
+    "QListWidget { border: 2px solid black; }"
+    "QScrollBar:vertical { width: 44px; border: 1px solid black; background: white; }"
+    "QScrollBar::handle:vertical { background: #505050; min-height: 44px; margin: 2px; }"
+    "QScrollBar::add-line, QScrollBar::sub-line { height: 0; }"
+    "QDoubleSpinBox { border: 2px solid black; padding: 4px; font-size: 20px; font-weight: bold;"
+    " min-height: 34px; }";
+
+constexpr int kLamp_px = 56;
+constexpr int kLegend_px = 88;
+constexpr int kStepButton_px = 56;
 
 QLabel* MakeLabel(const char* name, const char* style = "") {
   auto* label = new QLabel;
@@ -41,14 +47,17 @@ QPushButton* MakeButton(const char* name, const char* text) {
 void FlightPanel::BuildWindow() {
   setStyleSheet(kStyle);
   auto* column = new QVBoxLayout(this);
-  column->setSpacing(8);
+  column->setSpacing(6);
+  column->setContentsMargins(8, 8, 8, 8);
   column->addWidget(BuildPhotos());
   column->addWidget(BuildLayers());
-  column->addWidget(BuildGaps(), /*stretch=*/1);
-  save_ = MakeButton("save", "Save");
-  connect(save_, &QPushButton::clicked, this, &FlightPanel::OnSave);
-  column->addWidget(save_);
-  answer_ = MakeLabel("answer");
+  auto* pages = new QStackedWidget;
+  pages->addWidget(BuildGaps());
+  pages->addWidget(BuildSettings());
+  column->addWidget(pages, /*stretch=*/1);
+  column->addWidget(BuildButtons(pages));
+  answer_ = MakeLabel("answer", "font-weight: bold;");
+  answer_->setVisible(false);
   column->addWidget(answer_);
 }
 
@@ -56,19 +65,22 @@ QWidget* FlightPanel::BuildPhotos() {
   auto* box = new QWidget;
   auto* column = new QVBoxLayout(box);
   column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(6);
   auto* lamp_frame = new QWidget;  // Its own sheet: the lamp's changes with each photo.
   auto* lamp_column = new QVBoxLayout(lamp_frame);
   lamp_column->setContentsMargins(0, 0, 0, 0);
-  lamp_frame->setStyleSheet("font-size: 22px; font-weight: bold; padding: 10px;");
+  lamp_frame->setStyleSheet("font-size: 24px; font-weight: bold; padding: 4px 8px;");
   lamp_ = MakeLabel("lamp");
-  lamp_->setMinimumHeight(96);
+  lamp_->setMinimumHeight(kLamp_px);
   lamp_->setAlignment(Qt::AlignLeft | Qt::AlignVCenter);
   lamp_column->addWidget(lamp_);
   column->addWidget(lamp_frame);
-  counts_ = MakeLabel("counts", "font-size: 22px;");
-  behind_ = MakeLabel("behind", "font-size: 22px;");
-  trouble_ = MakeLabel("trouble", "background: #c40000; color: white; font-weight: bold;");
-  for (QLabel* label : {counts_, behind_, trouble_}) column->addWidget(label);
+  next_ = new NextBox([this] { LookAt(0); });
+  column->addWidget(next_);
+  counts_ = MakeLabel("counts");
+  trouble_ =
+      MakeLabel("trouble", "background: #b00000; color: white; font-weight: bold; padding: 4px;");
+  for (QLabel* label : {trouble_, counts_}) column->addWidget(label);
   return box;
 }
 
@@ -76,6 +88,7 @@ QWidget* FlightPanel::BuildLayers() {
   auto* box = new QWidget;
   auto* column = new QVBoxLayout(box);
   column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(4);
   auto* row = new QHBoxLayout;
   row->setSpacing(4);
   layers_ = new QButtonGroup(this);
@@ -90,28 +103,40 @@ QWidget* FlightPanel::BuildLayers() {
   connect(layers_, &QButtonGroup::idClicked, this, &FlightPanel::OnLayer);
   column->addLayout(row);
   legend_ = MakeLabel("legend");
-  legend_->setMinimumHeight(64);
+  legend_->setFixedHeight(kLegend_px);
+  legend_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  legend_->setAlignment(Qt::AlignCenter);
   column->addWidget(legend_);
-  auto* wanted = new QHBoxLayout;
-  wanted->addWidget(new QLabel("Wanted GSD"));
+  return box;
+}
+
+// The arrows of a spin box are too small for a glove.
+QWidget* FlightPanel::BuildWantedGsd() {
+  auto* box = new QWidget;
+  auto* row = new QHBoxLayout(box);
+  row->setContentsMargins(0, 0, 0, 0);
+  wanted_unit_ = MakeLabel("wanted_unit");
+  row->addWidget(wanted_unit_, /*stretch=*/1);
   wanted_gsd_ = new QDoubleSpinBox;
   wanted_gsd_->setObjectName("wanted_gsd");
   wanted_gsd_->setRange(0.1, 1000.0);
   wanted_gsd_->setDecimals(1);
   wanted_gsd_->setSingleStep(0.5);
   wanted_gsd_->setKeyboardTracking(false);
+  wanted_gsd_->setButtonSymbols(QAbstractSpinBox::NoButtons);
+  wanted_gsd_->setAlignment(Qt::AlignCenter);
   connect(wanted_gsd_,
           QOverload<double>::of(&QDoubleSpinBox::valueChanged),
           this,
           &FlightPanel::OnWantedGsd);
-  wanted->addWidget(wanted_gsd_);
-  wanted_unit_ = MakeLabel("wanted_unit");
-  wanted->addWidget(wanted_unit_, /*stretch=*/1);
-  column->addLayout(wanted);
-  is_color_blind_ = new QCheckBox("Colours for the colour-blind");
-  is_color_blind_->setObjectName("colour_blind");
-  connect(is_color_blind_, &QCheckBox::toggled, this, &FlightPanel::OnPalette);
-  column->addWidget(is_color_blind_);
+  QPushButton* finer = MakeButton("finer", "−");
+  QPushButton* coarser = MakeButton("coarser", "+");
+  connect(finer, &QPushButton::clicked, wanted_gsd_, &QDoubleSpinBox::stepDown);
+  connect(coarser, &QPushButton::clicked, wanted_gsd_, &QDoubleSpinBox::stepUp);
+  for (QPushButton* button : {finer, coarser}) button->setFixedWidth(kStepButton_px);
+  row->addWidget(finer);
+  row->addWidget(wanted_gsd_);
+  row->addWidget(coarser);
   return box;
 }
 
@@ -119,20 +144,44 @@ QWidget* FlightPanel::BuildGaps() {
   auto* box = new QWidget;
   auto* column = new QVBoxLayout(box);
   column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(2);
   gaps_title_ = MakeLabel("gaps_title", "font-weight: bold;");
-  gaps_title_->setText("No mesh yet.");
+  gaps_title_->setText("No mesh yet");
   column->addWidget(gaps_title_);
-  gap_list_ = new QListWidget;
-  gap_list_->setObjectName("gaps");
-  gap_list_->setWordWrap(true);
-  gap_list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  connect(gap_list_, &QListWidget::itemClicked, this, [this](QListWidgetItem* item) {
-    OnGapClicked(gap_list_->row(item));
-  });
+  gap_list_ = new GapList([this](std::size_t index) { LookAt(index); });
   column->addWidget(gap_list_, /*stretch=*/1);
-  QPushButton* whole = MakeButton("whole_view", "Show the whole map");
+  return box;
+}
+
+// What is seldom touched in flight is behind the gaps.
+QWidget* FlightPanel::BuildSettings() {
+  auto* box = new QWidget;
+  auto* column = new QVBoxLayout(box);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(6);
+  column->addWidget(BuildWantedGsd());
+  QPushButton* color_blind = MakeButton("colour_blind", "Colours for the colour-blind");
+  color_blind->setCheckable(true);
+  connect(color_blind, &QPushButton::toggled, this, &FlightPanel::OnPalette);
+  column->addWidget(color_blind);
+  column->addStretch();
+  return box;
+}
+
+QWidget* FlightPanel::BuildButtons(QStackedWidget* pages) {
+  auto* box = new QWidget;
+  auto* row = new QHBoxLayout(box);
+  row->setContentsMargins(0, 0, 0, 0);
+  QPushButton* whole = MakeButton("whole_view", "Whole map");
   connect(whole, &QPushButton::clicked, this, &FlightPanel::OnWholeView);
-  column->addWidget(whole);
+  QPushButton* settings = MakeButton("settings", "Settings");
+  settings->setCheckable(true);
+  connect(settings, &QPushButton::toggled, pages, [pages](bool is_on) {
+    pages->setCurrentIndex(is_on ? 1 : 0);
+  });
+  save_ = MakeButton("save", "Save");
+  connect(save_, &QPushButton::clicked, this, &FlightPanel::OnSave);
+  for (QPushButton* button : {whole, settings, save_}) row->addWidget(button);
   return box;
 }
 

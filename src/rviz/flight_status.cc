@@ -9,8 +9,9 @@
 namespace plumb::rviz_panel {
 namespace {
 
-// Nodes speak every second.
-constexpr double kSilentAfter_s = 4.0;
+// Nodes speak every second; where other programs kept both cores busy, the mesher was at work for
+// more than 4 s.
+constexpr double kSilentAfter_s = 8.0;
 
 const char* const kIngest = "camera_ingest";
 const char* const kMapper = "mapper";
@@ -25,15 +26,17 @@ std::string Words(std::string name) {
 void FlightStatus::OnVerdict(const plumbline::PhotoVerdict& verdict) {
   if (verdict.sequence < newest_photo_) return;
   newest_photo_ = verdict.sequence;
-  if (verdict.status == plumbline::PhotoVerdict::ACCEPTED) {
+  const bool is_accepted = verdict.status == plumbline::PhotoVerdict::ACCEPTED;
+  hint_ = is_accepted ? "" : verdict.hint;
+  if (is_accepted) {
     lamp_ = Lamp::kGreen;
-    sentence_ = verdict.name + " accepted.";
+    sentence_ = verdict.name + " accepted";
   } else if (verdict.status == plumbline::PhotoVerdict::WAITING) {
     lamp_ = Lamp::kYellow;
-    sentence_ = verdict.name + " waits. " + verdict.hint;
+    sentence_ = verdict.name + " waits for a partner";
   } else {
     lamp_ = Lamp::kRed;
-    sentence_ = verdict.name + " REFUSED: " + Words(verdict.reason) + ". " + verdict.hint;
+    sentence_ = verdict.name + " REFUSED: " + Words(verdict.reason);
   }
 }
 

@@ -25,6 +25,9 @@ class FlightStatus {
   Lamp lamp() const { return lamp_; }
   const std::string& sentence() const { return sentence_; }
 
+  // What its verdict says is to be done; empty once it is accepted.
+  const std::string& hint() const { return hint_; }
+
   // As the nodes last told them; nothing before that, and once they are silent.
   std::optional<int> num_taken(double now_s) const;
   std::optional<int> num_accepted(double now_s) const;
@@ -49,7 +52,8 @@ class FlightStatus {
   std::optional<int> Count(const char* node, const char* key, double now_s) const;
 
   Lamp lamp_ = Lamp::kDark;
-  std::string sentence_ = "No photo yet.";
+  std::string sentence_ = "No photo yet";
+  std::string hint_;
   std::uint32_t newest_photo_ = 0;
   std::map<std::string, NodeStatus> nodes_;
 };

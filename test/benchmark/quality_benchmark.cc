@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "plumbline/common/stopwatch.h"
 #include "plumbline/map/run_report.h"
 #include "plumbline/quality/gaps.h"
 #include "plumbline/quality/quality_map.h"
@@ -44,6 +45,7 @@ struct Step {
   double surface_s = 0.0;
   double quality_s = 0.0;
   double gaps_s = 0.0;
+  double wall_s = 0.0;  // Of surface and quality, by the clock.
   double num_rays = 0.0;
   double num_views = 0.0;
   double num_blocks = 0.0;
@@ -64,6 +66,7 @@ Json Summarize(const std::vector<Step>& steps, std::size_t begin, std::size_t en
           {"quality_ms", quantile(0.5, [](const Step& s) { return 1e3 * s.quality_s; })},
           {"both_ms", quantile(0.5, total)},
           {"both_p95_ms", quantile(0.95, total)},
+          {"both_wall_ms", quantile(0.5, [](const Step& s) { return 1e3 * s.wall_s; })},
           {"gaps_ms", quantile(0.5, [](const Step& s) { return 1e3 * s.gaps_s; })},
           {"rays", quantile(0.5, [](const Step& s) { return s.num_rays; })},
           {"views", quantile(0.5, [](const Step& s) { return s.num_views; })},
@@ -84,9 +87,11 @@ void MeasureSteps(const std::vector<MapDelta>& deltas, const Camera& camera) {
   SurfaceMesher surface{SurfaceOptions()};
   QualityMap quality{QualityOptions()};
   quality.SetCamera(camera);
-  const Measure measure{1.0, camera.MeanFocalLength(), 0.5};
+  const double half_photo_px = 0.5 * std::min(camera.width_px(), camera.height_px());
+  const Measure measure{1.0, camera.MeanFocalLength(), 0.5, half_photo_px};
   std::vector<Step> steps;
   for (const MapDelta& delta : deltas) {
+    const Stopwatch stopwatch;
     test::CpuWatch watch;
     Step step;
     const std::optional<SurfaceUpdate> update = surface.Apply(delta);
@@ -94,6 +99,7 @@ void MeasureSteps(const std::vector<MapDelta>& deltas, const Camera& camera) {
     step.surface_s = watch.Restart();
     const QualityUpdate changed = quality.Apply(delta, update->mesh);
     step.quality_s = watch.Restart();
+    step.wall_s = stopwatch.Seconds();
     FindGaps(GapOptions(), quality.blocks(), measure, 1.0);
     step.gaps_s = watch.Restart();
     step.num_rays = static_cast<double>(changed.num_rays);

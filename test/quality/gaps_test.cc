@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "plumbline/quality/quality_map.h"
 #include "test/quality/quality_scene.h"
 
@@ -44,7 +46,7 @@ class Gaps : public testing::Test {
     options.wanted_gsd_mm = 12.0;  // 5 m with 500 px gives 10 mm, and more off the axis.
     return options;
   }();
-  Measure measure_{1.0, 500.0, 0.5};
+  Measure measure_{1.0, 500.0, 0.5, /*half_photo_px=*/200.0};
 };
 
 TEST_F(Gaps, AreNoneWhereThereAreEnoughFinePhotos) {
@@ -61,7 +63,8 @@ TEST_F(Gaps, AreWhereTooFewPhotosSee) {
     EXPECT_NEAR(gap.normal_in_map.y(), -1.0, 1e-6);
     EXPECT_GT(gap.share_unsure, 0.9);
     EXPECT_LT(gap.num_views, 3);
-    EXPECT_LE(gap.area, 9.0 + 1e-6);  // What one photo takes in.
+    const double distance = (gap.camera_in_map - gap.center_in_map).norm();
+    EXPECT_LE(gap.area, M_PI * std::pow(measure_.PhotoRadiusAt(distance), 2));
   }
 }
 
@@ -104,6 +107,43 @@ TEST_F(Gaps, AreWhereThePhotosAreTooCoarse) {
   EXPECT_EQ(Find().size(), 2U);
   options_.wanted_gsd_mm = 40.0;
   EXPECT_THAT(Find(), testing::IsEmpty());
+}
+
+// A wall that is too coarse all over takes as many gaps as photos, not as blocks.
+TEST_F(Gaps, AreAsLargeAsAPhotoTakesIn) {
+  for (double x = -4.0; x < 16.0; x += 0.7) Photograph({x, -8, 2});
+  measure_.half_photo_px = 300.0;  // 3.1 m around the middle, from 5.1 m.
+  // Of 12 m x 4 m, 48 blocks: two or three whole circles, and what they leave at the ends.
+  EXPECT_LE(Find().size(), 6U);
+  measure_.half_photo_px = 60.0;  // 0.6 m: no second block.
+  options_.max_gaps = 100;
+  for (const Gap& gap : Find()) EXPECT_LE(gap.area, 1.0 + 1e-6);
+}
+
+TEST_F(Gaps, AreNotToldBesideMuchLargerOnes) {
+  PhotographLeftOf(8.0);
+  options_.min_share_of_largest = 0.0;
+  const std::vector<Gap> all = Find();
+  options_.min_share_of_largest = 0.8;
+  const std::vector<Gap> large = Find();
+  EXPECT_LT(large.size(), all.size());
+  ASSERT_FALSE(large.empty());
+  EXPECT_EQ(large[0].area, all[0].area);
+  EXPECT_GE(large.back().area, 0.8 * large[0].area);
+  EXPECT_LT(all[large.size()].area, 0.8 * all[0].area);
+}
+
+TEST_F(Gaps, DoNotJoinWhatDoesNotHangTogether) {
+  for (double x = -2.0; x < 15.0; x += 0.7) Photograph({x, -5, 2});
+  for (const double x : {4.0, 7.0}) {  // Lids, 3 m apart.
+    test::AddGrid({x, -0.01, 1.5}, {0.9, 0, 0}, {0, 0, 0.9}, 1, 1, &soup_);
+  }
+  options_.min_area_share = 0.3;
+  const std::vector<Gap> gaps = Find();
+  ASSERT_EQ(gaps.size(), 2U);
+  for (const Gap& gap : gaps) {
+    EXPECT_LT(std::abs(std::abs(gap.center_in_map.x() - 5.95) - 1.5), 0.3);
+  }
 }
 
 TEST_F(Gaps, OfAMapThatIsNotMetricCompareWithTheFirstPhotos) {

@@ -106,8 +106,8 @@ TEST(DrawLegend, HasTheColoursOfTheScaleFromPoorToGood) {
       const auto& pixel = picture.at<cv::Vec3b>(70, column);
       return Rgb{pixel[0], pixel[1], pixel[2]};
     };
-    EXPECT_EQ(at(45), ColorAt(palette, 5.0 / 730.0));
-    EXPECT_EQ(at(405), ColorAt(palette, 365.0 / 730.0));
+    EXPECT_EQ(at(45), ColorAt(palette, 5.0 / 695.0));
+    EXPECT_EQ(at(405), ColorAt(palette, 365.0 / 695.0));
     EXPECT_EQ(at(kLegendWidth_px - 60), kUnseenColor);
   }
 }

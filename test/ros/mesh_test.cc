@@ -109,37 +109,52 @@ Gap MakeGap() {
   return gap;
 }
 
+std::map<PhotoId, Rigid3> OneView() {
+  return {{PhotoId{3}, Rigid3(Eigen::Quaterniond::Identity(), {-4, 0, 0})}};
+}
+
 TEST(DrawGaps, ShowsThemAndTheWayToTheFirst) {
-  const Rigid3 cam_from_map(Eigen::Quaterniond::Identity(), {-4, 0, 0});
-  const auto array = DrawGaps({MakeGap(), MakeGap()}, cam_from_map, MakeHeader());
+  const auto array = DrawGaps({MakeGap(), MakeGap()}, OneView(), MakeHeader());
   EXPECT_EQ(array.markers.front().action, Marker::DELETEALL);
   int num_arrows = 0;
+  int num_frames = 0;
   for (const Marker& marker : array.markers) {
+    if (marker.ns == "gap_photo") ++num_frames;
     if (marker.type != Marker::ARROW || marker.action != Marker::ADD) continue;
     ++num_arrows;
     EXPECT_EQ(marker.points[0].x, 4.0);
     EXPECT_EQ(marker.points[1].y, -3.0);
   }
   EXPECT_EQ(num_arrows, 1);
-  EXPECT_EQ(DrawGaps({}, cam_from_map, MakeHeader()).markers.size(), 1U);
+  EXPECT_EQ(num_frames, 1);
+  EXPECT_EQ(DrawGaps({}, OneView(), MakeHeader()).markers.size(), 1U);
 }
 
-TEST(DrawGaps, OnlyTheWorstShowThePhotoToTake) {
-  int num_frames = 0;
-  int num_numbers = 0;
-  for (const Marker& marker :
-       DrawGaps(std::vector<Gap>(20, MakeGap()), std::nullopt, MakeHeader()).markers) {
-    if (marker.ns == "gap_photo") ++num_frames;
-    if (marker.ns == "gap_number") ++num_numbers;
+// White on a round disc in the ink of the ring: a target's name is black on a white plate.
+TEST(DrawGaps, NamesThemOnDiscsThatAreLegibleInTheWholeView) {
+  Gap far = MakeGap();
+  far.center_in_map.x() += 50.0;
+  far.area = 0.01;
+  std::vector<std::string> names;
+  std::vector<Marker> discs;
+  for (const Marker& marker : DrawGaps({MakeGap(), far}, OneView(), MakeHeader()).markers) {
+    if (marker.type == Marker::CYLINDER) discs.push_back(marker);
+    if (marker.type != Marker::TEXT_VIEW_FACING) continue;
+    names.push_back(marker.text);
+    EXPECT_GT(marker.scale.z, 0.025 * 50.0);
+    EXPECT_EQ(marker.color.g, 1.0F);
+    ASSERT_FALSE(discs.empty());
+    EXPECT_LT(marker.pose.position.y, discs.back().pose.position.y);  // Before it.
+    EXPECT_GT(discs.back().scale.x, 1.5 * marker.scale.z);
+    EXPECT_LT(discs.back().color.g, 0.1F);
   }
-  EXPECT_EQ(num_frames, 3);
-  EXPECT_EQ(num_numbers, 20);
+  EXPECT_THAT(names, testing::ElementsAre("G1", "G2"));
 }
 
 TEST(DrawGaps, OfAHorizontalGapHasAxesToo) {
   Gap gap = MakeGap();
   gap.normal_in_map = {0, 0, 1};
-  for (const Marker& marker : DrawGaps({gap}, std::nullopt, MakeHeader()).markers) {
+  for (const Marker& marker : DrawGaps({gap}, {}, MakeHeader()).markers) {
     for (const auto& point : marker.points) EXPECT_TRUE(std::isfinite(point.x + point.y + point.z));
   }
 }
@@ -170,7 +185,8 @@ TEST(GapsMsg, IsInMetresAndHasAdvice) {
   EXPECT_NEAR(msg.gaps[0].area_m2, 8.0, 1e-9);
   EXPECT_NEAR(msg.gaps[0].right_m, 2.0, 1e-9);
   EXPECT_NEAR(msg.gaps[0].forward_m, 6.0, 1e-9);
-  EXPECT_THAT(msg.gaps[0].advice, testing::HasSubstr("6.0 m closer"));
+  EXPECT_THAT(msg.gaps[0].way, testing::HasSubstr("6.0 m closer"));
+  EXPECT_EQ(msg.gaps[0].advice, msg.gaps[0].problem + ". Fly " + msg.gaps[0].way + ".");
   EXPECT_EQ(msg.wanted_gsd, GapOptions().wanted_gsd_mm);
 }
 

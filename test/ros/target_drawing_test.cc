@@ -93,9 +93,9 @@ TEST(DrawTargets, ArrowsPointToWhereTheModelPutsThem) {
 
 TEST(DrawTargets, SaysTheMillimetres) {
   const MarkerArray drawing = DrawTargets({}, MakeGeoreference());
-  EXPECT_EQ(Find(drawing, "target_labels", 0)->text, "0: 2.0 mm");
-  EXPECT_EQ(Find(drawing, "target_labels", 2)->text, "2: WRONG 500 mm");
-  EXPECT_EQ(Find(drawing, "target_labels", 3)->text, "3: not seen");
+  EXPECT_EQ(Find(drawing, "target_labels", 0)->text, "T0: 2.0 mm");
+  EXPECT_EQ(Find(drawing, "target_labels", 2)->text, "T2: WRONG 500 mm");
+  EXPECT_EQ(Find(drawing, "target_labels", 3)->text, "T3: not seen");
   EXPECT_EQ(Find(drawing, "georeference", -1)->text, "1 control: mean 2.0, max 2.0 mm");
 }
 

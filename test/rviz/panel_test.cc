@@ -16,8 +16,12 @@
 
 #include <QApplication>
 #include <QElapsedTimer>
+#include <QRegularExpression>
 #include <QtTest/QTest>
+#include <algorithm>
+#include <cmath>
 #include <functional>
+#include <map>
 
 #include "rviz/flight_panel.h"
 
@@ -25,6 +29,7 @@ namespace plumb::rviz_panel {
 namespace {
 
 constexpr int kDeadline_ms = 60000;
+constexpr int kGlove_px = 44;
 
 class PanelTest : public testing::Test {
  protected:
@@ -46,6 +51,56 @@ class PanelTest : public testing::Test {
     diagnostics_ = handle_.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10);
     legend_ = handle_.advertise<sensor_msgs::Image>("/plumbline/legend_redundancy", 1, true);
     WaitFor([&] { return verdicts_.getNumSubscribers() > 0; }, "a listener");
+  }
+
+  static int FontSizeOf(const QWidget* widget) { return widget->fontInfo().pixelSize(); }
+
+  // Of a word below its number in the table.
+  static std::string CountOf(const char* word) {
+    const QRegularExpression cell(QString("<b>([^<]*)</b></span><br>%1<").arg(word));
+    return cell.match(Find<QLabel>("counts")->text()).captured(1).toStdString();
+  }
+
+  // Relative luminance and contrast: WCAG 2.1, https://www.w3.org/TR/WCAG21/#dfn-contrast-ratio.
+  static double Luminance(QRgb color) {
+    const auto linear = [](int value) {
+      const double share = value / 255.0;
+      return share <= 0.03928 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
+    };
+    return 0.2126 * linear(qRed(color)) + 0.7152 * linear(qGreen(color)) +
+           0.0722 * linear(qBlue(color));
+  }
+
+  // As it is drawn: the largest contrast to what most of the widget shows. The inside of a letter
+  // of 16 px is one pixel wide at least.
+  static double ContrastOf(QWidget* widget) {
+    const QImage image = widget->grab(widget->rect().adjusted(4, 4, -4, -4)).toImage();
+    std::map<QRgb, int> counts;
+    for (int y = 0; y < image.height(); ++y) {
+      for (int x = 0; x < image.width(); ++x) ++counts[image.pixel(x, y)];
+    }
+    const auto ground = std::max_element(
+        counts.begin(), counts.end(), [](auto& a, auto& b) { return a.second < b.second; });
+    double contrast = 1.0;
+    for (const auto& [color, count] : counts) {
+      const double one = Luminance(color) + 0.05;
+      const double other = Luminance(ground->first) + 0.05;
+      contrast = std::max(contrast, std::max(one, other) / std::min(one, other));
+    }
+    return contrast;
+  }
+
+  // Whatever of the panel has words on it now.
+  static void ExpectLegible() {
+    for (QWidget* widget : panel_->findChildren<QWidget*>()) {
+      const auto* label = qobject_cast<QLabel*>(widget);
+      const auto* button = qobject_cast<QPushButton*>(widget);
+      const bool has_words = (label != nullptr && !label->text().isEmpty()) || button != nullptr;
+      if (!widget->isVisible() || !has_words) continue;
+      const std::string name = widget->objectName().toStdString();
+      EXPECT_GE(ContrastOf(widget), 7.0) << name;
+      EXPECT_GE(FontSizeOf(widget), 16) << name;
+    }
   }
 
   // RViz runs meanwhile.
@@ -101,8 +156,11 @@ class PanelTest : public testing::Test {
     gaps.is_metric = 1;
     gaps.wanted_gsd = 4.0;
     gaps.gaps.resize(2);
-    gaps.gaps[0].advice = "Only 1 photo sees it. Fly 3.0 m right.";
-    gaps.gaps[1].advice = "Too coarse.";
+    gaps.gaps[0].problem = "Only 1 photo sees it";
+    gaps.gaps[0].way = "3.0 m right";
+    gaps.gaps[0].camera_in_map.y = -10.0;
+    gaps.gaps[0].normal_in_map.y = -1.0;
+    gaps.gaps[1].problem = "Too coarse";
     gaps.gaps[1].center_in_map.x = 7.0;
     gaps.gaps[1].normal_in_map.y = -1.0;
     gaps.gaps[1].camera_in_map.x = 7.0;
@@ -124,17 +182,87 @@ FlightPanel* PanelTest::panel_ = nullptr;
 
 TEST_F(PanelTest, TheLampTellsWhatBecameOfTheLastPhoto) {
   Publish(1, plumbline::PhotoVerdict::ACCEPTED, "none", "");
-  WaitFor([] { return TextOf("lamp") == "photo1.jpg accepted."; }, "green");
-  EXPECT_THAT(Find<QLabel>("lamp")->styleSheet().toStdString(), testing::HasSubstr("#0b7a25"));
+  WaitFor([] { return TextOf("lamp") == "photo1.jpg accepted"; }, "green");
+  EXPECT_THAT(Find<QLabel>("lamp")->styleSheet().toStdString(), testing::HasSubstr("#35d04a"));
+  ExpectLegible();
   Publish(2, plumbline::PhotoVerdict::REFUSED, "too_blurred", "Fly slower.");
-  WaitFor([] { return TextOf("lamp") == "photo2.jpg REFUSED: too blurred. Fly slower."; }, "red");
-  EXPECT_THAT(Find<QLabel>("lamp")->styleSheet().toStdString(), testing::HasSubstr("#c40000"));
-  Publish(1,
-          plumbline::PhotoVerdict::ACCEPTED,
-          "none",
-          "");  // An older photo, tried again, changes nothing.
-  Publish(3, plumbline::PhotoVerdict::WAITING, "none", "Take another.");
-  WaitFor([] { return TextOf("lamp") == "photo3.jpg waits. Take another."; }, "yellow");
+  WaitFor([] { return TextOf("lamp") == "photo2.jpg REFUSED: too blurred"; }, "red");
+  EXPECT_THAT(Find<QLabel>("lamp")->styleSheet().toStdString(), testing::HasSubstr("#b00000"));
+  ExpectLegible();
+  // An older photo, tried again, changes nothing.
+  Publish(1, plumbline::PhotoVerdict::ACCEPTED, "none", "");
+  Publish(3, plumbline::PhotoVerdict::WAITING, "none", "too far; take another");
+  WaitFor([] { return TextOf("lamp") == "photo3.jpg waits for a partner"; }, "yellow");
+  ExpectLegible();
+}
+
+// A photo that was not accepted comes first, then the worst gap.
+TEST_F(PanelTest, TheNextStepIsTheLargestButTheLamp) {
+  Publish(4, plumbline::PhotoVerdict::WAITING, "none", "too far; take another");
+  WaitFor([] { return TextOf("next_action") == "Take another"; }, "the hint");
+  EXPECT_EQ(TextOf("next_reason"), "Too far");
+  gaps_.publish(TwoGaps());
+  auto* list = Find<QListWidget>("gaps");
+  WaitFor([&] { return list->count() == 2; }, "both gaps in the list");
+  EXPECT_EQ(list->item(0)->text().toStdString(), "G1  3.0 m right");
+  Publish(5, plumbline::PhotoVerdict::ACCEPTED, "none", "");
+  WaitFor([] { return TextOf("next_action") == "Fly 3.0 m right"; }, "the worst gap");
+  EXPECT_EQ(TextOf("next_reason"), "G1: Only 1 photo sees it");
+  EXPECT_EQ(list->count(), 1);  // It is not told twice.
+  EXPECT_EQ(list->item(0)->text().toStdString(), "G2  photo from right here");
+  ExpectLegible();
+  const int size = FontSizeOf(Find<QLabel>("next_action"));
+  for (const QLabel* label : panel_->findChildren<QLabel*>()) {
+    const QString name = label->objectName();
+    if (name == "lamp" || name == "next_action") continue;
+    EXPECT_GT(size, FontSizeOf(label)) << name.toStdString();
+  }
+  QTest::mouseClick(Find<QFrame>("next"), Qt::LeftButton);
+  rviz::ViewController* view = frame_->getManager()->getViewManager()->getCurrent();
+  EXPECT_NEAR(view->subProp("Distance")->getValue().toDouble(), 16.0, 1e-5);
+  gaps_.publish(plumbline::Gaps());
+  WaitFor([] { return TextOf("next_action") == "No gaps: fly on, or save"; }, "no gaps");
+}
+
+TEST_F(PanelTest, NoRowOfTheListIsCut) {
+  Publish(6, plumbline::PhotoVerdict::ACCEPTED, "none", "");
+  plumbline::Gaps gaps = TwoGaps();
+  gaps.gaps.resize(10, gaps.gaps[0]);
+  for (plumbline::Gap& gap : gaps.gaps) gap.way = "12.0 m right, 10.5 m down, 2.4 m closer";
+  gaps_.publish(gaps);
+  auto* list = Find<QListWidget>("gaps");
+  WaitFor([&] { return list->count() == 9; }, "nine gaps");
+  EXPECT_LE(frame_->minimumSizeHint().height(), 768);  // Of a small laptop.
+  for (const int height_px : {768, 831, 1000}) {
+    frame_->resize(1600, height_px);
+    WaitFor([&] { return frame_->height() == height_px; }, "the window's size");
+    QApplication::processEvents();
+    const int row_px = list->visualItemRect(list->item(0)).height();
+    EXPECT_GE(row_px, kGlove_px);
+    EXPECT_EQ(list->viewport()->height() % row_px, 0) << height_px;
+    EXPECT_GE(list->viewport()->height(), 2 * row_px);
+    EXPECT_LE(list->geometry().bottom(), list->parentWidget()->height());
+  }
+  EXPECT_GE(list->viewport()->height() / list->visualItemRect(list->item(0)).height(), 4);
+}
+
+TEST_F(PanelTest, WhatIsPressedIsLargeEnoughForAGlove) {
+  Find<QPushButton>("settings")->setChecked(true);
+  QApplication::processEvents();
+  int num_seen = 0;
+  for (const QWidget* widget : panel_->findChildren<QWidget*>()) {
+    if (!widget->isVisible()) continue;
+    const bool is_pressed = qobject_cast<const QPushButton*>(widget) != nullptr ||
+                            qobject_cast<const QDoubleSpinBox*>(widget) != nullptr ||
+                            widget->objectName() == "next";
+    if (!is_pressed) continue;
+    ++num_seen;
+    EXPECT_GE(widget->height(), kGlove_px) << widget->objectName().toStdString();
+    EXPECT_GE(widget->width(), kGlove_px) << widget->objectName().toStdString();
+  }
+  EXPECT_EQ(num_seen, 12);
+  ExpectLegible();
+  Find<QPushButton>("settings")->setChecked(false);
 }
 
 TEST_F(PanelTest, CountsAndDelayAreWhatTheNodesSay) {
@@ -154,11 +282,11 @@ TEST_F(PanelTest, CountsAndDelayAreWhatTheNodesSay) {
   add("photos refused", "1", &array.status[1]);
   add("photos waiting", "0", &array.status[1]);
   diagnostics_.publish(array);
-  WaitFor([] { return TextOf("behind") == "<b>1.3 s</b> behind the camera"; }, "the delay");
-  EXPECT_THAT(TextOf("counts"), testing::HasSubstr("<b>12</b> taken"));
-  EXPECT_THAT(TextOf("counts"), testing::HasSubstr("<b>8</b> accepted"));
-  EXPECT_THAT(TextOf("counts"), testing::HasSubstr("<b>3</b> waiting"));
-  EXPECT_THAT(TextOf("counts"), testing::HasSubstr("<b>1</b> refused"));
+  WaitFor([] { return CountOf("behind") == "1.3 s"; }, "the delay");
+  EXPECT_EQ(CountOf("taken"), "12");
+  EXPECT_EQ(CountOf("accepted"), "8");
+  EXPECT_EQ(CountOf("waiting"), "3");
+  EXPECT_EQ(CountOf("refused"), "1");
   EXPECT_FALSE(Find<QLabel>("trouble")->isVisible());
 
   array.status[1].level = diagnostic_msgs::DiagnosticStatus::ERROR;
@@ -166,8 +294,9 @@ TEST_F(PanelTest, CountsAndDelayAreWhatTheNodesSay) {
   diagnostics_.publish(array);
   WaitFor([] { return TextOf("trouble") == "mapper: the disk is full"; }, "the trouble");
   EXPECT_TRUE(Find<QLabel>("trouble")->isVisible());
+  ExpectLegible();
   // Nobody speaks any more: no old figure stays.
-  WaitFor([] { return TextOf("behind") == "– s behind the camera"; }, "the silence");
+  WaitFor([] { return CountOf("behind") == "–"; }, "the silence");
   EXPECT_THAT(TextOf("trouble"), testing::HasSubstr("is silent"));
 }
 
@@ -203,10 +332,10 @@ TEST_F(PanelTest, TheLegendIsThatOfTheLayer) {
 }
 
 TEST_F(PanelTest, AClickOnAGapLooksThere) {
+  Publish(7, plumbline::PhotoVerdict::WAITING, "none", "Take another.");
   gaps_.publish(TwoGaps());
   auto* list = Find<QListWidget>("gaps");
   WaitFor([&] { return list->count() == 2; }, "two gaps");
-  EXPECT_EQ(list->item(0)->text().toStdString(), "1  Only 1 photo sees it. Fly 3.0 m right.");
   const QRect second = list->visualItemRect(list->item(1));
   QTest::mouseClick(list->viewport(), Qt::LeftButton, Qt::NoModifier, second.center());
   rviz::ViewController* view = frame_->getManager()->getViewManager()->getCurrent();
@@ -236,12 +365,18 @@ TEST_F(PanelTest, TheWantedGsdAndThePaletteReachTheMesher) {
   WaitFor([&] { return asked.size() == 1; }, "the wish");
   EXPECT_EQ(asked[0].wanted_gsd, 2.5);
   EXPECT_EQ(asked[0].palette, "");
-  QTest::mouseClick(Find<QCheckBox>("colour_blind"), Qt::LeftButton, {}, QPoint(10, 10));
+  Press("settings");
+  Press("colour_blind");
   WaitFor([&] { return asked.size() == 2; }, "the palette");
   EXPECT_EQ(asked[1].wanted_gsd, 0.0);
   EXPECT_EQ(asked[1].palette, "colour_blind");
+  Press("coarser");
+  WaitFor([&] { return asked.size() == 3; }, "the coarser wish");
+  EXPECT_EQ(asked[2].wanted_gsd, 3.0);
+  Press("settings");
   wanted->setValue(500.0);
   WaitFor([] { return TextOf("answer") == "wanted_gsd_mm is too large"; }, "the refusal");
+  ExpectLegible();
 }
 
 TEST_F(PanelTest, SaveFinishesTheFlightAndSaysWhatCameOfIt) {

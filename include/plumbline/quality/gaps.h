@@ -26,8 +26,12 @@ struct GapOptions {
   // Smaller gaps are not told [share of a square with the sides of a block].
   double min_area_share = 0.15;
 
-  // At most so many are told, the largest first.
-  int max_gaps = 20;
+  // Nor are those smaller than this share of the largest: a young surface has little else than
+  // gaps, and the photos of the large ones often take in the small ones beside them.
+  double min_share_of_largest = 0.3;
+
+  // At most so many are told, the largest first: each photo changes them, and more hide the wall.
+  int max_gaps = 6;
 
   // One message per violated bound; empty if the options are usable.
   std::vector<std::string> Problems() const;
@@ -39,6 +43,7 @@ void VisitFields(GapOptions& options, Visitor&& visit) {
   visit("wanted_gsd_mm", options.wanted_gsd_mm);
   visit("wanted_relative_gsd", options.wanted_relative_gsd);
   visit("min_area_share", options.min_area_share);
+  visit("min_share_of_largest", options.min_share_of_largest);
   visit("max_gaps", options.max_gaps);
 }
 
@@ -55,8 +60,9 @@ struct Gap {
 };
 
 // Gaps among the faces that some camera sees or would see if nothing were in the way: what is
-// turned away from all cameras is not what was flown for. A gap gathers neighbouring blocks, but no
-// more than one photo takes in. Largest first. `block_side` is that of the mesh [map units].
+// turned away from all cameras is not what was flown for. A gap gathers the blocks that hang
+// together, but no more than one photo takes in from where it is wanted. Largest first.
+// `block_side` is that of the mesh [map units].
 std::vector<Gap> FindGaps(const GapOptions& options,
                           const std::map<BlockId, QualityBlock>& blocks,
                           const Measure& measure,
@@ -71,8 +77,15 @@ struct Move {
 
 Move MoveTo(const Gap& gap, const Rigid3& cam_from_map);
 
-// One sentence for the pilot: what is wrong, and where to fly from the camera given. While the map
-// is not metric, in parts of the distance that the camera has to the gap.
+// What is wrong, as "Only 1 photo sees it".
+std::string Problem(const Gap& gap, const GapOptions& options, const Measure& measure);
+
+// Where to fly from the camera given, as "3.0 m right, 1.0 m down"; empty if it is in the right
+// place. While the map is not metric, in parts of the distance that the camera has to the gap: "0.5
+// x up".
+std::string Way(const Gap& gap, const Measure& measure, const Rigid3& cam_from_map);
+
+// Both as sentences for the pilot.
 std::string Advice(const Gap& gap,
                    const GapOptions& options,
                    const Measure& measure,

@@ -33,6 +33,7 @@ struct Measure {
   std::optional<double> metres_per_map_unit;
   double focal_length_px = 0.0;
   double noise_px = 0.0;
+  double half_photo_px = 0.0;  // Half of the photo's shorter side.
 
   // [mm], or relative to a face that is looked at straight from the distance of the first photos.
   double Gsd(const FaceQuality& quality) const;
@@ -43,6 +44,9 @@ struct Measure {
   // The GSD of a distance that is looked from straight, and the inverse; distances in map units.
   double GsdAt(double distance) const;
   double DistanceFor(double gsd) const;
+
+  // The radius of the circle that fits into a photo from there [map units].
+  double PhotoRadiusAt(double distance) const;
 };
 
 // Logarithmic scales, the same in every flight: the colours of two flights can be compared.

@@ -10,7 +10,7 @@
 namespace plumb {
 
 constexpr int kLegendWidth_px = 900;
-constexpr int kLegendHeight_px = 150;
+constexpr int kLegendHeight_px = 170;
 
 // The colour scale of a layer with its values, dark on white; that of the GSD has a mark at the
 // wanted one, and says so while the map is not metric. 8-bit RGB.
