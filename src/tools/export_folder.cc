@@ -70,28 +70,36 @@ void ExportFolder::Add(const std::vector<std::string>& names, const std::string&
   Save();
 }
 
-std::vector<std::string> ExportFolder::Delete(const std::string& name) {
-  const auto entry = entry_of_name_.find(name);
-  if (!fs::is_regular_file(PathOf(name))) {
-    if (entry != entry_of_name_.end()) entry_of_name_.erase(entry);
-    return {};
+std::vector<std::string> ExportFolder::Delete(const std::vector<std::string>& names) {
+  std::vector<std::string> lines;
+  std::string kept;
+  for (const std::string& name : names) {
+    if (!fs::is_regular_file(PathOf(name))) {
+      entry_of_name_.erase(name);
+    } else if (IsUnchanged(name)) {
+      Remove(name);
+      lines.push_back("deleted " + PathOf(name) + ", which was of the former map or georeference");
+    } else {
+      kept += (kept.empty() ? "" : ", ") + name;
+    }
   }
-  if (!IsUnchanged(name)) {
-    return {PathOf(name) +
-            ": is not as Plumbline wrote it and is kept; it may be of another map or frame than "
-            "the files beside it"};
+  if (!kept.empty()) {
+    lines.push_back(path_ + ": kept, as Plumbline did not write it like this: " + kept +
+                    "; it may be of another map or frame than the files beside it");
   }
+  return lines;
+}
+
+void ExportFolder::Remove(const std::string& name) {
   std::error_code error;
   if (!fs::remove(PathOf(name), error)) {
     throw std::runtime_error(PathOf(name) +
-                             ": is of the former map or georeference and cannot be "
-                             "deleted: " +
+                             ": is of the former map or georeference and cannot be deleted: " +
                              error.message() + "; delete it");
   }
   fs::remove(fs::path(PathOf(name)).parent_path(), error);  // Only if that is empty now.
   entry_of_name_.erase(name);
   Save();
-  return {"deleted " + PathOf(name) + ", which was of the former map or georeference"};
 }
 
 std::vector<std::string> ExportFolder::DeleteStale(const std::string& state) {
@@ -102,11 +110,7 @@ std::vector<std::string> ExportFolder::DeleteStale(const std::string& state) {
     if (is_stale && known == stale.end()) stale.push_back(name);
     if (!is_stale && known != stale.end()) stale.erase(known);
   }
-  std::vector<std::string> lines;
-  for (const std::string& name : stale) {
-    for (std::string& line : Delete(name)) lines.push_back(std::move(line));
-  }
-  return lines;
+  return Delete(stale);
 }
 
 bool ExportFolder::IsUnchanged(const std::string& name) const {

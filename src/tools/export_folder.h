@@ -27,12 +27,12 @@ class ExportFolder {
   // Throws std::runtime_error naming the file and the cause.
   void Add(const std::vector<std::string>& names, const std::string& state);
 
-  // Deletes what was written of another state than this; a line for each file says whether it was
-  // deleted, or is kept because it is not as Plumbline wrote it. Throws like Add.
+  // Deletes what was written of another state than this; gives a line for each file, and one that
+  // names those that are kept because Plumbline did not write them as they are. Throws like Add.
   std::vector<std::string> DeleteStale(const std::string& state);
 
-  // The same for one file, whatever it is of, if it is there.
-  std::vector<std::string> Delete(const std::string& name);
+  // The same for these files, whatever they are of, as far as they are there.
+  std::vector<std::string> Delete(const std::vector<std::string>& names);
 
  private:
   struct Entry {
@@ -42,6 +42,7 @@ class ExportFolder {
 
   std::string PathOf(const std::string& name) const { return path_ + '/' + name; }
   bool IsUnchanged(const std::string& name) const;
+  void Remove(const std::string& name);
   void Save() const;
 
   std::string path_;

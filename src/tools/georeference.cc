@@ -252,7 +252,7 @@ void WriteFiles(const GeoreferenceArguments& arguments,
     files.Add({kGcpList}, /*state=*/"");
     console->PrintLine("wrote " + gcp_path);
   } else {
-    stale = files.Delete(kGcpList);
+    stale = files.Delete({kGcpList});
   }
   for (std::string& line :
        files.DeleteStale(ExportState(result.georeference.map_sequence, arguments.refine, path))) {

@@ -147,7 +147,7 @@ TEST_F(MeshSessionTest, FilesOfAnotherGeoreferenceDoNotStayBeside) {
   EXPECT_THAT(lines, testing::Contains(testing::HasSubstr("deleted " + folder + "/mesh.ply")));
   EXPECT_THAT(lines,
               testing::Contains(testing::HasSubstr(
-                  folder + "/mesh.obj: is not as Plumbline wrote it and is kept")));
+                  folder + ": kept, as Plumbline did not write it like this: mesh.obj")));
   EXPECT_FALSE(std::filesystem::exists(folder + "/mesh.ply"));
   EXPECT_THAT(TextOf(folder + "/mesh.obj"), testing::HasSubstr("smoothed by hand"));
   EXPECT_TRUE(std::filesystem::exists(folder + "/points.ply"));
