@@ -322,4 +322,9 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except KeyboardInterrupt:
+        # What there was is kept.
+        print("demo: ended by Ctrl-C", file=sys.stderr)
+        sys.exit(130)

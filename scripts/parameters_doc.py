@@ -15,7 +15,11 @@ SOURCE = pathlib.Path(__file__).resolve().parents[1]
 PAGE = SOURCE / "docs" / "parameters.md"
 ROOTS = {"calibrator": "CalibratorRosOptions", "camera_ingest": "CameraIngestOptions",
          "georeferencer": "GeoreferencerRosOptions", "mapper": "MapperRosOptions",
-         "marker_detector": "MarkerDetectorRosOptions", "mesher": "MesherRosOptions"}
+         "marker_detector": "MarkerDetectorRosOptions", "mesher": "MesherRosOptions",
+         "refinement": "RefinementOptions"}
+# Of a command, not of a node: what is said above the table, and how names are put together.
+COMMANDS = {"refinement": ("Of `plumbline georeference --refine`: `--set NAME=VALUE`, once for each.",
+                           "refinement.", ".")}
 
 STRUCT = re.compile(r"^struct (\w+Options) \{$")
 FIELD = re.compile(r"^  ([\w:]+) (\w+)(?: = .*?)?(?:;|\{|\[)(?:.*?;)?(?:\s*//\s*(.*))?")
@@ -48,13 +52,13 @@ def read_structs():
     return structs
 
 
-def rows_of(structs, struct, values, prefix, missing):
+def rows_of(structs, struct, values, prefix, missing, separator="/"):
     """One row a parameter; groups are walked in depth."""
     rows = []
     for name, value in values.items():
         kind, comment = structs[struct].get(name, ("", ""))
         if isinstance(value, dict):
-            rows += rows_of(structs, kind, value, f"{prefix}{name}/", missing)
+            rows += rows_of(structs, kind, value, f"{prefix}{name}{separator}", missing, separator)
             continue
         if not comment:
             missing.append(f"{struct}::{name} has no comment of its own")
@@ -74,9 +78,10 @@ def make_page(program):
              "node reads its private", "parameters at start and refuses wrong types, unknown names "
              "and values out of bounds. Set them in", "`config/<node>.yaml`, groups as nested maps."]
     for node, values in nodes.items():
-        lines += ["", f"## {node}", "", "| parameter | type | default | what and why |",
-                  "|---|---|---|---|"]
-        lines += rows_of(structs, ROOTS[node], values, "", missing)
+        words, prefix, separator = COMMANDS.get(node, ("", "", "/"))
+        lines += ["", f"## {node}", ""] + ([words, ""] if words else [])
+        lines += ["| parameter | type | default | what and why |", "|---|---|---|---|"]
+        lines += rows_of(structs, ROOTS[node], values, prefix, missing, separator)
     if missing:
         sys.exit("\n".join(missing))
     return "\n".join(lines) + "\n"

@@ -136,6 +136,9 @@ PlyHeader ParsePlyHeader(std::string_view file) {
       CheckSize(header, file.size() - header.size);
       return header;
     }
+    if (words[0] == "comment" && words.size() > 1) {
+      header.comments.push_back(line.substr(line.find(words[1], line.find(words[0]) + 7)));
+    }
     ParseLine(words, &has_format, &header);
   }
   throw std::invalid_argument("its header has no end");

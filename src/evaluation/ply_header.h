@@ -30,7 +30,8 @@ struct PlyElement {
 struct PlyHeader {
   bool is_ascii = false;  // Else binary little-endian.
   std::vector<PlyElement> elements;
-  std::size_t size = 0;  // [bytes]; the body begins there.
+  std::vector<std::string> comments;  // Without the word comment.
+  std::size_t size = 0;               // [bytes]; the body begins there.
 };
 
 // Throws std::invalid_argument saying what is wrong, also if the file is too short to hold as many

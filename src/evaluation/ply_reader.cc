@@ -198,6 +198,15 @@ TriangleMesh Read(const std::string& path, bool wants_faces) {
 
 TriangleMesh ReadPlyMesh(const std::string& path) { return Read(path, /*wants_faces=*/true); }
 
+std::vector<std::string> ReadPlyComments(const std::string& path) {
+  const std::vector<std::uint8_t> bytes = ReadFileBytes(path);
+  try {
+    return ParsePlyHeader({reinterpret_cast<const char*>(bytes.data()), bytes.size()}).comments;
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(path + ": " + error.what() + "; export or copy it again");
+  }
+}
+
 std::vector<Eigen::Vector3d> ReadPlyPoints(const std::string& path) {
   return Read(path, /*wants_faces=*/false).vertices;
 }

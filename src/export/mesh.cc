@@ -44,14 +44,17 @@ WholeMesh JoinBlocks(const MeshDelta& snapshot) {
 
 }  // namespace
 
-void ExportMeshPly(const MeshDelta& snapshot, const std::string& path) {
+void ExportMeshPly(const MeshDelta& snapshot,
+                   const std::string& path,
+                   const std::vector<std::string>& comments) {
   const WholeMesh mesh = JoinBlocks(snapshot);
-  std::string text =
-      "ply\nformat binary_little_endian 1.0\ncomment Plumbline mesh, frame: map\nelement vertex " +
-      std::to_string(mesh.vertices.size()) +
-      "\nproperty double x\nproperty double y\nproperty double z\n"
-      "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face " +
-      std::to_string(mesh.faces.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+  std::string text = "ply\nformat binary_little_endian 1.0\ncomment Plumbline mesh\n";
+  for (const std::string& comment : comments) text += "comment " + comment + '\n';
+  text += "element vertex " + std::to_string(mesh.vertices.size()) +
+          "\nproperty double x\nproperty double y\nproperty double z\n"
+          "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face " +
+          std::to_string(mesh.faces.size()) +
+          "\nproperty list uchar int vertex_indices\nend_header\n";
   for (const MeshVertex* vertex : mesh.vertices) {
     text.append(reinterpret_cast<const char*>(vertex->position_in_map.data()), 3 * sizeof(double));
     text.append(reinterpret_cast<const char*>(vertex->color.data()), vertex->color.size());
@@ -63,9 +66,12 @@ void ExportMeshPly(const MeshDelta& snapshot, const std::string& path) {
   WriteFileAtomically(path, text);
 }
 
-void ExportMeshObj(const MeshDelta& snapshot, const std::string& path) {
+void ExportMeshObj(const MeshDelta& snapshot,
+                   const std::string& path,
+                   const std::vector<std::string>& comments) {
   const WholeMesh mesh = JoinBlocks(snapshot);
-  std::string text = "# Plumbline mesh, frame: map\n";
+  std::string text = "# Plumbline mesh\n";
+  for (const std::string& comment : comments) text += "# " + comment + '\n';
   std::array<char, 160> line;
   for (const MeshVertex* vertex : mesh.vertices) {
     const Eigen::Vector3d& position = vertex->position_in_map;

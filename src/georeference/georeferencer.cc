@@ -9,6 +9,7 @@
 #include "georeference/finding_text.h"
 #include "georeference/gps_alignment.h"
 #include "georeference/plausibility.h"
+#include "georeference/survey_place.h"
 #include "georeference/target_adjustment.h"
 #include "georeference/target_layout.h"
 
@@ -249,6 +250,14 @@ std::vector<GpsPhoto> Georeferencer::GpsPhotos() const {
   return photos;
 }
 
+std::optional<Finding> Georeferencer::FindElsewhere(const Survey& survey,
+                                                    const GeoFrame& frame) const {
+  std::vector<GeodeticPosition> positions;
+  positions.reserve(positions_.size());
+  for (const auto& [photo, position] : positions_) positions.push_back(position);
+  return plumb::FindElsewhere(options_.max_gps_distance_m, survey, frame, positions);
+}
+
 // About so many as CheckLayout needs.
 std::vector<Eigen::Vector3d> Georeferencer::ModelSample(const Similarity3& enu_from_map) const {
   constexpr std::size_t kMaxPoints = 5000;
@@ -315,8 +324,11 @@ const Georeference& Georeferencer::Update() {
 
   const std::vector<GpsPhoto> photos = GpsPhotos();
   if (!photos.empty() && !gps_frame_) gps_frame_ = FrameAround(photos[0]);
-  // In one frame with the survey, wherever that is on earth.
-  const bool is_survey_on_earth = frame_ && !frame_->is_local();
+  // In one frame with the survey, if that is on earth and of this place.
+  const std::optional<Finding> elsewhere =
+      survey_ ? FindElsewhere(*survey_, *frame_) : std::nullopt;
+  if (elsewhere) result.findings.push_back(*elsewhere);
+  const bool is_survey_on_earth = frame_ && !frame_->is_local() && !elsewhere;
   const GeoFrame* const gps_frame = is_survey_on_earth ? &*frame_
                                     : gps_frame_       ? &*gps_frame_
                                                        : nullptr;
@@ -333,7 +345,8 @@ const Georeference& Georeferencer::Update() {
         by_targets ? &*by_targets : nullptr, by_gps, frame_ ? &*frame_ : nullptr, photos, &result);
   }
   if (by_targets) {
-    CheckPlausibility(options_, *survey_, by_targets->target_from_source, *frame_, photos, &result);
+    CheckShape(options_, *survey_, by_targets->target_from_source, &result);
+    if (!elsewhere) CheckPlace(options_, frame_->heights(), &result);
   }
   const bool is_refused =
       std::any_of(result.findings.begin(), result.findings.end(), [](const Finding& finding) {

@@ -25,6 +25,8 @@ std::vector<std::string> GeoreferencerOptions::Problems() const {
       gps_sigma_vertical_m > 0.0, "gps_sigma_vertical_m", "greater than 0", gps_sigma_vertical_m);
   problems.Require(max_gps_offset_m > 0.0, "max_gps_offset_m", "greater than 0", max_gps_offset_m);
   problems.Require(
+      max_gps_distance_m > 0.0, "max_gps_distance_m", "greater than 0", max_gps_distance_m);
+  problems.Require(
       min_coverage >= 0.0 && min_coverage <= 1.0, "min_coverage", "from 0 to 1", min_coverage);
   return problems.Take();
 }

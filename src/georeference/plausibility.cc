@@ -26,9 +26,6 @@ constexpr double kMaxNormalizedError = 4.0;
 // The first photo is taken to be upright; pilots tilt cameras by less than this.
 constexpr double kMaxTiltDeg = 50.0;
 
-// GPS is never off by so much: the coordinates are another place's.
-constexpr double kElsewhere_m = 1000.0;
-
 bool IsFeet(double ratio) { return std::abs(ratio / kFeetPerMetre - 1.0) < kFeetTolerance; }
 
 void CheckUnit(const GeoreferencerOptions& options,
@@ -90,80 +87,6 @@ void CheckUnit(const GeoreferencerOptions& options,
   }
 }
 
-// Mean of the photos' positions; nothing if none has a place in the frame.
-std::optional<Eigen::Vector3d> MeanGps(const GeoFrame& frame, const std::vector<GpsPhoto>& photos) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  int count = 0;
-  for (const GpsPhoto& photo : photos) {
-    const auto in_enu = frame.FromWgs84(photo.position);
-    if (!in_enu) continue;
-    sum += *in_enu;
-    ++count;
-  }
-  if (count == 0) return std::nullopt;
-  return sum / count;
-}
-
-// Whether the photos were taken where the survey would be with its first two axes exchanged.
-bool IsThereExchanged(const Survey& survey,
-                      const GeoFrame& frame,
-                      const std::vector<GpsPhoto>& photos) {
-  const auto gps = MeanGps(frame, photos);
-  if (!gps) return false;
-  const Eigen::Vector3d& point = survey.targets[0].point_in_crs;
-  try {
-    const Eigen::Vector3d exchanged = frame.ToEnu({point.y(), point.x(), point.z()});
-    return (exchanged - *gps).head<2>().norm() < kElsewhere_m;
-  } catch (const std::runtime_error&) {
-    return false;  // The CRS is not defined there.
-  }
-}
-
-void CheckPlace(const GeoreferencerOptions& options,
-                const Survey& survey,
-                const GeoFrame& frame,
-                const std::vector<GpsPhoto>& photos,
-                Georeference* georeference) {
-  if (!georeference->gps || !georeference->gps->offset_m) return;
-  const Eigen::Vector3d& offset = *georeference->gps->offset_m;
-  const double horizontal_m = offset.head<2>().norm();
-  if (horizontal_m > kElsewhere_m && IsThereExchanged(survey, frame, photos)) {
-    AddFinding(Severity::kError,
-               "swapped_axes",
-               Text(survey.source,
-                    ": lies ",
-                    horizontal_m / 1000.0,
-                    " km from where the photos' GPS "
-                    "is, but not with its first two coordinates exchanged: exchange them, east "
-                    "comes first, then north"),
-               &georeference->findings);
-  } else if (horizontal_m > options.max_gps_offset_m) {
-    AddFinding(Severity::kWarning,
-               "gps_disagrees",
-               Text("by the targets the photos were taken ",
-                    horizontal_m,
-                    " m (east ",
-                    offset.x(),
-                    ", north ",
-                    offset.y(),
-                    ") from where GPS says; the targets are taken. Check "
-                    "the CRS of the survey"),
-               &georeference->findings);
-  }
-  // Twice: GPS heights are that much worse.
-  if (std::abs(offset.z()) > 2.0 * options.max_gps_offset_m) {
-    AddFinding(Severity::kWarning,
-               "gps_height_disagrees",
-               Text("by the targets the photos were taken ",
-                    offset.z(),
-                    " m higher than GPS says; "
-                    "the targets are taken. The survey's heights are taken as ",
-                    ToString(frame.heights()),
-                    ", those of the photos as ellipsoidal"),
-               &georeference->findings);
-  }
-}
-
 void CheckUpright(const Similarity3& enu_from_map, std::vector<Finding>* findings) {
   const Eigen::Vector3d up = enu_from_map.rotation * Eigen::Vector3d::UnitZ();
   const double tilt_deg = std::acos(std::clamp(up.z(), -1.0, 1.0)) * 180.0 / M_PI;
@@ -198,15 +121,45 @@ void CompareWithGps(const RobustSimilarity* by_targets,
   georeference->gps = comparison;
 }
 
-void CheckPlausibility(const GeoreferencerOptions& options,
-                       const Survey& survey,
-                       const Similarity3& enu_from_map,
-                       const GeoFrame& frame,
-                       const std::vector<GpsPhoto>& photos,
-                       Georeference* georeference) {
+void CheckShape(const GeoreferencerOptions& options,
+                const Survey& survey,
+                const Similarity3& enu_from_map,
+                Georeference* georeference) {
   CheckUnit(options, survey, georeference);
-  CheckPlace(options, survey, frame, photos, georeference);
   CheckUpright(enu_from_map, &georeference->findings);
+}
+
+void CheckPlace(const GeoreferencerOptions& options,
+                HeightReference heights,
+                Georeference* georeference) {
+  if (!georeference->gps || !georeference->gps->offset_m) return;
+  const Eigen::Vector3d& offset = *georeference->gps->offset_m;
+  const double horizontal_m = offset.head<2>().norm();
+  if (horizontal_m > options.max_gps_offset_m) {
+    AddFinding(Severity::kWarning,
+               "gps_disagrees",
+               Text("by the targets the photos were taken ",
+                    horizontal_m,
+                    " m (east ",
+                    offset.x(),
+                    ", north ",
+                    offset.y(),
+                    ") from where GPS says; the targets are taken. Check "
+                    "the CRS of the survey"),
+               &georeference->findings);
+  }
+  // Twice: GPS heights are that much worse.
+  if (std::abs(offset.z()) > 2.0 * options.max_gps_offset_m) {
+    AddFinding(Severity::kWarning,
+               "gps_height_disagrees",
+               Text("by the targets the photos were taken ",
+                    offset.z(),
+                    " m higher than GPS says; "
+                    "the targets are taken. The survey's heights are taken as ",
+                    ToString(heights),
+                    ", those of the photos as ellipsoidal"),
+               &georeference->findings);
+  }
 }
 
 }  // namespace plumb

@@ -19,13 +19,16 @@ void CompareWithGps(const RobustSimilarity* by_targets,
                     Georeference* georeference);
 
 // Adds what is implausible about the similarity by targets: feet for metres, by the GPS's scale or
-// by the size of the markers; exchanged axes, by where GPS is or by what is up; GPS elsewhere. It
-// is an error where the survey's coordinates cannot be meant as they are.
-void CheckPlausibility(const GeoreferencerOptions& options,
-                       const Survey& survey,
-                       const Similarity3& enu_from_map,
-                       const GeoFrame& frame,
-                       const std::vector<GpsPhoto>& photos,
-                       Georeference* georeference);
+// by the size of the markers; a height in another column, by what is up. It is an error where the
+// survey's coordinates cannot be meant as they are.
+void CheckShape(const GeoreferencerOptions& options,
+                const Survey& survey,
+                const Similarity3& enu_from_map,
+                Georeference* georeference);
+
+// Warns of a place by targets that GPS, as far as it can be off, disputes.
+void CheckPlace(const GeoreferencerOptions& options,
+                HeightReference heights,
+                Georeference* georeference);
 
 }  // namespace plumb

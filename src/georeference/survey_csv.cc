@@ -109,6 +109,18 @@ int ReadMarkerId(const std::string& text) {
                               ", as printed on the marker");
 }
 
+// Taken as it stands, a sigma of millimetres would leave the target without a say and let it be
+// metres off unnoticed; a target that truly is so uncertain is no better than the photos' GPS.
+void CheckSigma(double sigma_m, const std::string& text) {
+  constexpr double kMaxSigma_m = 0.5;
+  if (sigma_m < 0.0) throw std::invalid_argument("sigma_m is negative");
+  if (sigma_m <= kMaxSigma_m) return;
+  throw std::invalid_argument("sigma_m " + text +
+                              " is no standard deviation of a surveyed point: it counts in metres, "
+                              "0.003 for 3 mm; convert the column, or leave out a point that is "
+                              "known to no better than 0.5 m");
+}
+
 SurveyTarget ReadTarget(const Layout& layout, const TextLine& line, double default_sigma_m) {
   const std::vector<std::string> fields = SplitFields(line.text, layout.separator);
   const auto field = [&](Column column) {
@@ -137,7 +149,7 @@ SurveyTarget ReadTarget(const Layout& layout, const TextLine& line, double defau
   if (!field(kSigma).empty()) {
     target.sigma_m = ParseCoordinate(field(kSigma), "sigma_m", decimal_comma);
   }
-  if (target.sigma_m < 0.0) throw std::invalid_argument("sigma_m is negative");
+  CheckSigma(target.sigma_m, field(kSigma));
   target.is_check = ReadRole(field(kRole));
   return target;
 }

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "georeference/finding_text.h"
+#include "georeference/mirror_check.h"
 #include "georeference/similarity_fit.h"
 
 namespace plumb {
@@ -50,24 +51,37 @@ std::vector<PointPair> ControlPairs(const std::vector<Pairing>& pairings) {
   return pairs;
 }
 
-// An axis the wrong way round makes a mirror image of the points, which no turn undoes unless
-// they all lie in a plane.
-bool FitsMirrored(const RobustSimilarityOptions& options, std::vector<PointPair> pairs) {
-  for (PointPair& pair : pairs) std::swap(pair.in_target.x(), pair.in_target.y());
-  return EstimateRobustSimilarity(options, pairs).status == RobustSimilarity::Status::kOk;
+void AddMirrorFinding(const Survey& survey,
+                      const MirrorImage& image,
+                      bool is_fit,
+                      std::vector<Finding>* findings) {
+  const std::string otherwise = is_fit ? Text(", as they stand to ", image.rms_m, " m")
+                                       : std::string(", as they stand not at all");
+  AddFinding(Severity::kError,
+             "swapped_axes",
+             Text(survey.source,
+                  ": ",
+                  image.num_pairs,
+                  " control points fit as a mirror image to ",
+                  image.mirrored_rms_m,
+                  " m",
+                  otherwise,
+                  ": two axes are exchanged, or one counts the wrong way; correct the columns: x_m "
+                  "is east (right), y_m north (away), z_m up"),
+             findings);
 }
 
 void ExplainFailure(const RobustSimilarityOptions& options,
                     const Survey& survey,
                     const std::vector<PointPair>& control,
-                    RobustSimilarity::Status status,
+                    const RobustSimilarity& similarity,
                     std::vector<Finding>* findings) {
   const auto num_control =
       std::count_if(survey.targets.begin(), survey.targets.end(), [](const SurveyTarget& target) {
         return !target.is_check;
       });
   const std::string seen = Text(control.size(), " of ", num_control, " control points");
-  switch (status) {
+  switch (similarity.status) {
     case RobustSimilarity::Status::kTooFewPairs:
       return AddFinding(
           Severity::kError,
@@ -94,17 +108,8 @@ void ExplainFailure(const RobustSimilarityOptions& options,
     case RobustSimilarity::Status::kOk:
       return;
   }
-  if (FitsMirrored(options, control)) {
-    return AddFinding(Severity::kError,
-                      "swapped_axes",
-                      Text(survey.source,
-                           ": the ",
-                           seen,
-                           " fit only as a mirror image: two axes "
-                           "are exchanged, or one counts the wrong way; x_m is east (right), y_m "
-                           "north (away), z_m up"),
-                      findings);
-  }
+  const std::optional<MirrorImage> image = FindMirrorImage(options, control, similarity);
+  if (image) return AddMirrorFinding(survey, *image, /*is_fit=*/false, findings);
   AddFinding(Severity::kError,
              "no_agreement",
              Text(survey.source,
@@ -247,13 +252,18 @@ std::optional<RobustSimilarity> AdjustToTargets(const GeoreferencerOptions& opti
   robust.max_bend_ratio = options.max_bend_ratio;
   const RobustSimilarity similarity = EstimateRobustSimilarity(robust, control);
   if (similarity.status != RobustSimilarity::Status::kOk) {
-    ExplainFailure(robust, survey, control, similarity.status, &georeference->findings);
+    ExplainFailure(robust, survey, control, similarity, &georeference->findings);
     return std::nullopt;
   }
+  const std::optional<MirrorImage> image = FindMirrorImage(robust, control, similarity);
+  if (image) AddMirrorFinding(survey, *image, /*is_fit=*/true, &georeference->findings);
   const double max_bend = options.max_bend_ratio * ExtentOf(pairings);
   FillIn(similarity, max_bend, &pairings);
-  NameWrongTargets(pairings, similarity.target_from_source, max_bend, &georeference->findings);
-  if (similarity.is_ambiguous) {
+  // Of a mirror image the targets that are off are not the wrong ones.
+  if (!image) {
+    NameWrongTargets(pairings, similarity.target_from_source, max_bend, &georeference->findings);
+  }
+  if (similarity.is_ambiguous && !image) {
     AddFinding(Severity::kWarning,
                "ambiguous_targets",
                Text(survey.source,

@@ -162,8 +162,12 @@ std::string GeoreferencerRos::LoadSurveyFile(const std::string& path,
                                              const SurveyReading& reading) {
   try {
     const Survey survey = ReadSurvey(path, reading);
-    GeoFrame::Around(survey);  // Throws where the survey cannot be placed.
-    if (georeferencer_) georeferencer_->SetSurvey(survey);
+    const GeoFrame frame = GeoFrame::Around(survey);  // Throws where it cannot be placed.
+    if (georeferencer_) {
+      const std::optional<Finding> elsewhere = georeferencer_->FindElsewhere(survey, frame);
+      if (elsewhere) return elsewhere->text;
+      georeferencer_->SetSurvey(survey);
+    }
     survey_ = survey;
   } catch (const std::exception& error) {
     return error.what();

@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "plumbline/evaluation/ply_reader.h"
 #include "plumbline/evaluation/pose_evaluation.h"
@@ -13,6 +14,7 @@
 #include "tools/geometry_report.h"
 #include "tools/georeference.h"
 #include "tools/original_names.h"
+#include "tools/session_frame.h"
 #include "tools/session_map.h"
 
 namespace plumb::tools {
@@ -78,8 +80,8 @@ void AddOptions(CLI::App* command, EvaluateArguments* arguments) {
   command->add_option("--laser", truth->laser, "PLY of a scan, a point cloud in the same frame");
   command->add_option("--mesh",
                       arguments->mesh,
-                      "PLY of a mesh in the map's frame, such as plumbline mesh writes, to be "
-                      "compared with the surface and the scan as well");
+                      "PLY of a mesh as plumbline mesh writes it, or of any in the map's frame, to "
+                      "be compared with the surface and the scan as well");
   truth->num_samples = 500'000;
   command
       ->add_option(
@@ -112,13 +114,15 @@ Json EvaluateByTruth(const EvaluateArguments& arguments,
   ReportGeometry(truth, store.camera(), points_in_world, &report);
   if (!arguments.mesh.empty()) {
     TriangleMesh mesh = ReadPlyMesh(arguments.mesh);
+    mesh.vertices =
+        BroughtIntoMap(arguments.mesh, ReadPlyComments(arguments.mesh), std::move(mesh.vertices));
     for (Eigen::Vector3d& vertex : mesh.vertices) vertex = poses.world_from_map * vertex;
     ReportMesh(truth, store.camera(), mesh, &report);
   }
   return report;
 }
 
-void Evaluate(const EvaluateArguments& arguments) {
+ExitCode Evaluate(const EvaluateArguments& arguments) {
   const bool has_survey = !arguments.georeference.survey.empty();
   if (arguments.poses.empty() && !has_survey) {
     throw std::runtime_error("nothing to evaluate against; give --truth, --survey or both");
@@ -129,9 +133,16 @@ void Evaluate(const EvaluateArguments& arguments) {
     throw std::runtime_error(
         "--surface, --laser and --mesh need the alignment by --truth; give it too");
   }
+  if (!arguments.mesh.empty() && arguments.truth.surface.empty() && arguments.truth.laser.empty()) {
+    throw std::runtime_error("--mesh: nothing to compare it with; give --surface, --laser or both");
+  }
   const SessionStore store = SessionStore::OpenExisting(arguments.georeference.session);
   Json report = Json::object();
   const SessionMap map = ReadSessionMap(store);
+  if (map.snapshot.views_set.empty()) {
+    std::cerr << WhyNothingIsLocated(store) << "; there is nothing to evaluate\n";
+    return kNothingLocated;
+  }
   if (!arguments.poses.empty()) report = EvaluateByTruth(arguments, store, map.snapshot);
   if (has_survey) {
     Console console(&std::cerr, /*is_terminal=*/false);
@@ -140,6 +151,7 @@ void Evaluate(const EvaluateArguments& arguments) {
   }
   report["refined"] = map.is_refined;
   std::cout << report.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  return kDone;
 }
 
 }  // namespace
@@ -158,10 +170,7 @@ void AddEvaluateCommand(CLI::App* app, ExitCode* exit_code) {
       std::string(kExitCodes));
   const auto arguments = std::make_shared<EvaluateArguments>();
   AddOptions(command, arguments.get());
-  command->callback([arguments, exit_code] {
-    Evaluate(*arguments);
-    *exit_code = kDone;
-  });
+  command->callback([arguments, exit_code] { *exit_code = Evaluate(*arguments); });
 }
 
 }  // namespace plumb::tools

@@ -21,6 +21,7 @@ struct ExportedSession {
 //   points.ply  the survey's CRS less the frame's origin, which stands in its comments; enu if the
 //               CRS counts in degrees
 //   frame.json  the CRS and the origin
+// What Plumbline wrote there of another map or georeference is deleted (ExportFolder).
 // Throws std::runtime_error naming the file and the cause.
 ExportedSession ExportSession(const SessionStore& store, const std::string& folder);
 

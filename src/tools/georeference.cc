@@ -10,6 +10,7 @@
 #include <mutex>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "image/parallel_for.h"
 #include "plumbline/common/atomic_file.h"
@@ -19,11 +20,15 @@
 #include "plumbline/sfm/map_refinement.h"
 #include "plumbline/sfm/stored_session.h"
 #include "tools/detect.h"
+#include "tools/export_folder.h"
 #include "tools/options_yaml.h"
 #include "tools/original_names.h"
+#include "tools/session_map.h"
 
 namespace plumb::tools {
 namespace {
+
+constexpr char kGcpList[] = "gcp_list.txt";
 
 struct Settings {
   GeoreferencerOptions georeferencer;
@@ -156,8 +161,7 @@ class Georeferencing {
         map_sequence_(snapshot.sequence),
         georeferencer_(settings.georeferencer, camera_) {
     if (snapshot.views_set.empty()) {
-      throw std::runtime_error(store.folder() +
-                               ": no photo is located; run plumbline reconstruct first");
+      throw std::runtime_error(WhyNothingIsLocated(store) + "; there is nothing to place");
     }
     Apply(snapshot);
     SetPositions(photos_, &georeferencer_);
@@ -238,13 +242,24 @@ void WriteFiles(const GeoreferenceArguments& arguments,
   WriteFileAtomically(path,
                       json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
   console->PrintLine("wrote " + path);
-  if (result.georeference.source != GeoreferenceSource::kTargets ||
-      result.survey->crs == kLocalCrs) {
-    return;
+  ExportFolder files(arguments.session + "/export");
+  std::vector<std::string> stale;
+  const bool has_gcp_list =
+      result.georeference.source == GeoreferenceSource::kTargets && result.survey->crs != kLocalCrs;
+  if (has_gcp_list) {
+    const std::string gcp_path = arguments.session + "/export/" + kGcpList;
+    WriteFileAtomically(gcp_path, ToGcpList(*result.survey, result.sightings));
+    files.Add({kGcpList}, /*state=*/"");
+    console->PrintLine("wrote " + gcp_path);
+  } else {
+    stale = files.Delete({kGcpList});
   }
-  const std::string gcp_path = arguments.session + "/export/gcp_list.txt";
-  WriteFileAtomically(gcp_path, ToGcpList(*result.survey, result.sightings));
-  console->PrintLine("wrote " + gcp_path);
+  for (std::string& line :
+       files.DeleteStale(ExportState(result.georeference.map_sequence, arguments.refine, path))) {
+    stale.push_back(std::move(line));
+  }
+  for (const std::string& line : stale) console->PrintLine(line);
+  if (!stale.empty()) console->PrintLine("plumbline export and plumbline mesh write them anew");
 }
 
 }  // namespace

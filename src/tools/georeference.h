@@ -47,8 +47,10 @@ std::vector<std::string> Describe(const Georeference& georeference);
 // Computes the georeference, prints it, and writes it to GeoreferencePath, and beside it
 // gcp_list.txt if the survey has a CRS. To refine, that is done once more after a bundle of the
 // whole map with its markers, which the session keeps beside its map (SaveRefinement); else a
-// refinement that there was is dropped. Throws std::runtime_error, and leaves what was there, if
-// there is none, or the survey cannot be used as it is, or another program writes the session.
+// refinement that there was is dropped. Exports of another map or georeference are deleted there,
+// as far as Plumbline wrote them (ExportFolder). Throws std::runtime_error, and leaves what was
+// there, if there is none, or the survey cannot be used as it is, or another program writes the
+// session.
 void WriteSessionGeoreference(const GeoreferenceArguments& arguments, Console* console);
 
 }  // namespace plumb::tools

@@ -17,7 +17,9 @@ void AddGeoreferenceCommand(CLI::App* app, ExitCode* exit_code) {
       "Finds the coded markers in the located photos, pairs them with the survey by their ids and "
       "prints each one's residual (model less survey) [mm] with its expected size. Writes "
       "SESSION/export/georeference.json, which plumbline export follows, and gcp_list.txt for "
-      "OpenDroneMap. See docs/georeference.md.");
+      "OpenDroneMap; of what was exported before, what is of another georeference is deleted. See "
+      "docs/georeference.md.\n" +
+      std::string(kExitCodes));
   const auto arguments = std::make_shared<GeoreferenceArguments>();
   command->add_option("--session", arguments->session, "Folder of the session")->required();
   command->add_option("--survey",

@@ -12,6 +12,9 @@
 namespace plumb::tools {
 namespace {
 
+constexpr char kOutputHelp[] =
+    "File to write, by its ending: .pdf (all pages) or .svg (a file a page)";
+
 struct SheetArguments {
   std::string paper = "a4";
   std::string arrangement = "fixed";
@@ -55,7 +58,7 @@ void AddSheet(CLI::App* markers, ExitCode* exit_code) {
       ->capture_default_str();
   command->add_option("--first-id", arguments->first_id, "The first of 16 IDs")
       ->capture_default_str();
-  command->add_option("--output", arguments->output, "A .pdf or .svg file")->required();
+  command->add_option("--output", arguments->output, kOutputHelp)->required();
   command->callback([arguments, exit_code] {
     const Paper paper =
         ReadWord<Paper>("--paper", arguments->paper, {{"a4", Paper::kA4}, {"a3", Paper::kA3}});
@@ -74,7 +77,7 @@ void AddTarget(CLI::App* markers, ExitCode* exit_code) {
   command->add_option("--id", arguments->id, "The marker")->required();
   command->add_option("--diameter-mm", arguments->diameter_mm, "Of its outer circle")
       ->capture_default_str();
-  command->add_option("--output", arguments->output, "A .pdf or .svg file")->required();
+  command->add_option("--output", arguments->output, kOutputHelp)->required();
   command->callback([arguments, exit_code] {
     Write(LayOutTarget(arguments->id, arguments->diameter_mm), arguments->output);
     *exit_code = kDone;
@@ -86,7 +89,8 @@ void AddTarget(CLI::App* markers, ExitCode* exit_code) {
 void AddMarkersCommand(CLI::App* app, ExitCode* exit_code) {
   CLI::App* command = app->add_subcommand("markers", "Coded markers to print, true to scale");
   command->footer(
-      "Check a print with a ruler on its scale bar. A marker needs a white rim of a quarter of its "
+      "A target of more than A3 needs a plotter, or the PDF printed in tiles. Check a print with a "
+      "ruler on its scale bar. A marker needs a white rim of a quarter of its "
       "radius.\n" +
       std::string(kExitCodes));
   command->require_subcommand(1);

@@ -7,6 +7,7 @@
 #include "tools/commands.h"
 #include "tools/mesh_session.h"
 #include "tools/options_yaml.h"
+#include "tools/session_map.h"
 
 namespace plumb::tools {
 namespace {
@@ -31,10 +32,12 @@ SurfaceOptions ReadOptions(const std::vector<std::string>& settings) {
 void AddMeshCommand(CLI::App* app, ExitCode* exit_code) {
   CLI::App* command = app->add_subcommand("mesh", "Make the surface of a session's map");
   command->footer(
-      "Writes mesh.ply and mesh.obj, triangles between the landmarks in the map's frame and unit "
-      "of "
-      "length, and prints a line of JSON: counts, seconds of each stage, and what of the map could "
-      "not be used. The mesh is the one that a flight ends with; see docs/surface.md.");
+      "Writes mesh.ply and mesh.obj, triangles between the landmarks, in the map's frame and unit "
+      "of length; after plumbline georeference, like plumbline export, in metres in the survey's "
+      "CRS less an offset, which frame.json names. Prints a line of JSON: counts, seconds of each "
+      "stage, the frame, and what of the map could not be used. The mesh is the one that a flight "
+      "ends with; see docs/surface.md.\n" +
+      std::string(kExitCodes));
   const auto arguments = std::make_shared<MeshArguments>();
   command->add_option("--session", arguments->session, "Folder of the session")->required();
   command->add_option(
@@ -46,8 +49,24 @@ void AddMeshCommand(CLI::App* app, ExitCode* exit_code) {
     const SessionStore store = SessionStore::OpenExisting(arguments->session);
     const std::string folder =
         arguments->folder.empty() ? arguments->session + "/export" : arguments->folder;
-    std::cout << MeshSession(options, store, folder).dump() << '\n';
-    *exit_code = kDone;
+    if (ReadSessionMap(store).snapshot.views_set.empty()) {
+      std::cerr << WhyNothingIsLocated(store) << "; there is no mesh to make\n";
+      *exit_code = kNothingLocated;
+      return;
+    }
+    const nlohmann::ordered_json report = MeshSession(options, store, folder);
+    std::cout << report.dump() << '\n';
+    for (const auto& line : report.at("stale")) std::cerr << line.get<std::string>() << '\n';
+    if (report.contains("outdated")) {
+      std::cerr << report.at("outdated").get<std::string>() << '\n';
+    }
+    const bool is_empty = report.at("faces") == 0;
+    if (is_empty) {
+      std::cerr << arguments->session
+                << ": its landmarks make no surface: photograph it from more places, then run "
+                   "plumbline reconstruct again\n";
+    }
+    *exit_code = is_empty ? kFailed : kDone;
   });
 }
 

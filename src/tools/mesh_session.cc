@@ -4,9 +4,12 @@
 
 #include <filesystem>
 
+#include "plumbline/common/atomic_file.h"
 #include "plumbline/common/stopwatch.h"
 #include "plumbline/export/mesh.h"
 #include "plumbline/surface/surface_mesher.h"
+#include "tools/export_folder.h"
+#include "tools/session_frame.h"
 #include "tools/session_map.h"
 
 namespace plumb::tools {
@@ -30,6 +33,14 @@ Json ToJson(const SurfaceReport& report) {
           {"problems", problems}};
 }
 
+void Place(const SessionFrame& frame, MeshDelta* mesh) {
+  for (MeshBlock& block : mesh->blocks) {
+    for (MeshVertex& vertex : block.vertices) {
+      vertex.position_in_map = frame.Place(vertex.position_in_map);
+    }
+  }
+}
+
 }  // namespace
 
 Json MeshSession(const SurfaceOptions& options,
@@ -37,16 +48,28 @@ Json MeshSession(const SurfaceOptions& options,
                  const std::string& folder) {
   const Stopwatch watch;
   SurfaceMesher mesher(options);
-  const SurfaceUpdate update = *mesher.Apply(ReadSessionMap(store).snapshot);
+  const SessionMap map = ReadSessionMap(store);
+  const SessionFrame frame(store, map);
+  SurfaceUpdate update = *mesher.Apply(map.snapshot);
   Json report = ToJson(update.report);
   report["blocks"] = update.mesh.blocks.size();
   std::filesystem::create_directories(folder);
-  const std::string ply = folder + "/mesh.ply";
-  const std::string obj = folder + "/mesh.obj";
-  ExportMeshPly(update.mesh, ply);
-  ExportMeshObj(update.mesh, obj);
+  std::vector<std::string> names = {"mesh.ply", "mesh.obj"};
+  Place(frame, &update.mesh);
+  ExportMeshPly(update.mesh, folder + "/mesh.ply", frame.Comments());
+  ExportMeshObj(update.mesh, folder + "/mesh.obj", frame.Comments());
+  if (frame.georeference()) {
+    WriteFileAtomically(folder + "/frame.json", frame.Json());
+    names.emplace_back("frame.json");
+  }
+  ExportFolder files(folder);
+  files.Add(names, frame.state());
+  const std::vector<std::string> stale = files.DeleteStale(frame.state());
   report["total_s"] = watch.Seconds();
-  report["files"] = {ply, obj};
+  report["frame"] = frame.georeference() ? frame.Name() + ", metres" : "map, scale free";
+  for (const std::string& name : names) report["files"].push_back(folder + '/' + name);
+  report["stale"] = stale;
+  if (!frame.outdated().empty()) report["outdated"] = frame.outdated();
   return report;
 }
 

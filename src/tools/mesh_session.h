@@ -12,8 +12,9 @@
 namespace plumb::tools {
 
 // Writes mesh.ply and mesh.obj of the session's map, refined if it was, into `folder`, which is
-// made if need be; gives counts, seconds and what was left out. Throws std::runtime_error naming
-// the file and the cause, std::invalid_argument for the options.
+// made if need be: in the frame of the points that ExportSession writes, with its frame.json. Gives
+// counts, seconds, what was left out, the frame, and as "stale" what ExportFolder says. Throws
+// std::runtime_error naming the file and the cause, std::invalid_argument for the options.
 nlohmann::ordered_json MeshSession(const SurfaceOptions& options,
                                    const SessionStore& store,
                                    const std::string& folder);

@@ -6,6 +6,7 @@
 #include "plumbline/map/session_store.h"
 #include "tools/commands.h"
 #include "tools/export_session.h"
+#include "tools/session_map.h"
 
 namespace plumb::tools {
 namespace {
@@ -32,6 +33,11 @@ void AddExportCommand(CLI::App* app, ExitCode* exit_code) {
       "--to,--output", arguments->path, "Folder to write to (default: SESSION/export)");
   command->callback([arguments, exit_code] {
     const SessionStore store = SessionStore::OpenExisting(arguments->session);
+    if (ReadSessionMap(store).snapshot.views_set.empty()) {
+      std::cerr << WhyNothingIsLocated(store) << "; there is nothing to export\n";
+      *exit_code = kNothingLocated;
+      return;
+    }
     const std::string folder =
         arguments->path.empty() ? arguments->session + "/export" : arguments->path;
     const ExportedSession exported = ExportSession(store, folder);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
+
 #include "plumbline/map/session_store.h"
 
 namespace plumb::tools {
@@ -13,5 +15,8 @@ struct SessionMap {
 };
 
 SessionMap ReadSessionMap(const SessionStore& store);
+
+// Why the map of a session without located photos is empty, and what to do.
+std::string WhyNothingIsLocated(const SessionStore& store);
 
 }  // namespace plumb::tools

@@ -31,7 +31,7 @@ MeshDelta MakeMesh() {
 template <typename Export>
 std::string Exported(const Export& write) {
   const std::string path = testing::TempDir() + "exported_mesh";
-  write(MakeMesh(), path);
+  write(MakeMesh(), path, {"frame: enu about offset, metres", "offset: 1 2 3"});
   const std::vector<std::uint8_t> bytes = ReadFileBytes(path);
   std::remove(path.c_str());
   return {bytes.begin(), bytes.end()};
@@ -40,6 +40,7 @@ std::string Exported(const Export& write) {
 TEST(ExportMesh, JoinsTheBlocksOfAPly) {
   const std::string text = Exported(ExportMeshPly);
   EXPECT_THAT(text, testing::HasSubstr("element vertex 4\n"));
+  EXPECT_THAT(text, testing::HasSubstr("comment frame: enu about offset, metres\n"));
   EXPECT_THAT(text, testing::HasSubstr("element face 2\n"));
   const std::string end = "end_header\n";
   const char* body = text.data() + text.find(end) + end.size();
@@ -56,6 +57,7 @@ TEST(ExportMesh, JoinsTheBlocksOfAPly) {
 
 TEST(ExportMesh, WritesAnObjThatReadsBackToTheLastBit) {
   const std::string text = Exported(ExportMeshObj);
+  EXPECT_THAT(text, testing::HasSubstr("# offset: 1 2 3\n"));
   double x = 0.0;
   double y = 0.0;
   double z = 0.0;

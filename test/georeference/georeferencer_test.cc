@@ -290,6 +290,51 @@ TEST(Georeferencer, NoticesExchangedAxesByTheMirroredShape) {
   EXPECT_THAT(swapped->text, HasSubstr("mirror image"));
 }
 
+TEST(Georeferencer, NoticesExchangedAxesOfAFlatFacade) {
+  using Exchange = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;
+  const std::vector<Exchange> exchanges = {
+      [](const auto& p) { return Eigen::Vector3d(p.y(), p.x(), p.z()); },
+      [](const auto& p) { return Eigen::Vector3d(p.x(), p.z(), p.y()); },
+      [](const auto& p) { return Eigen::Vector3d(-p.x(), p.y(), p.z()); }};
+  for (const double relief_m : {0.1, 0.5}) {  // Each fits as it stands, within a map's bend.
+    SurveySceneOptions options;
+    options.relief_m = relief_m;
+    for (const Exchange& exchange : exchanges) {
+      SurveyScene scene = MakeSurveyScene(options);
+      for (SurveyTarget& target : scene.survey.targets) {
+        target.point_in_crs = exchange(target.point_in_crs);
+      }
+      Georeferencer georeferencer = MakeGeoreferencer(scene);
+      const Georeference& georeference = georeferencer.Update();
+      EXPECT_EQ(georeference.source, GeoreferenceSource::kNone);
+      const Finding* swapped = FindFinding(georeference, "swapped_axes");
+      ASSERT_NE(swapped, nullptr) << relief_m;
+      EXPECT_EQ(swapped->severity, Finding::Severity::kError);
+      EXPECT_THAT(swapped->text,
+                  AllOf(HasSubstr("survey.csv: 12 control points fit as a mirror image to 0.00"),
+                        HasSubstr("two axes are exchanged, or one counts the wrong way"),
+                        HasSubstr("x_m is east")));
+      EXPECT_EQ(FindFinding(georeference, "wrong_target"), nullptr);
+    }
+  }
+}
+
+TEST(Georeferencer, AFlatFacadeWhoseMapIsBentIsNotTakenForAMirrorImage) {
+  for (int seed = 1; seed <= 10; ++seed) {
+    SurveySceneOptions options;
+    options.random_seed = seed;
+    options.relief_m = 0.02;
+    SurveyScene scene = MakeSurveyScene(options);
+    for (Eigen::Vector3d& point : scene.targets_in_enu) {
+      point.y() += 0.02 * std::pow(point.x() / 25.0 - 1.0, 2);
+    }
+    TakePhotos(options, &scene);
+    Georeferencer georeferencer = MakeGeoreferencer(scene);
+    EXPECT_EQ(georeferencer.Update().source, GeoreferenceSource::kTargets) << seed;
+    EXPECT_EQ(FindFinding(georeferencer.Update(), "swapped_axes"), nullptr) << seed;
+  }
+}
+
 TEST(Georeferencer, NoticesThatTheHeightIsInAnotherColumn) {
   SurveyScene scene = MakeSurveyScene();
   scene.map_from_enu.rotation = Eigen::Quaterniond::Identity();  // The map's z is up, as it is.

@@ -151,6 +151,77 @@ TEST_F(GpsTest, NoticesExchangedAxesInsideTheAreaOfTheCrs) {
   EXPECT_NE(georeference.source, GeoreferenceSource::kTargets);
 }
 
+TEST_F(GpsTest, RefusesASurveyInAnotherUtmZone) {
+  scene_.survey.crs = "EPSG:32632";  // Six degrees to the west, inside that zone's area.
+  Georeferencer georeferencer = test::MakeGeoreferencer(scene_);
+  EXPECT_EQ(georeferencer.Update().source, GeoreferenceSource::kTargets);  // Nothing disputes it.
+  SetPositions({1.0, -0.5, 2.0}, &georeferencer);
+  const Georeference& georeference = georeferencer.Update();
+  const Finding* elsewhere = FindFinding(georeference, "survey_elsewhere");
+  ASSERT_NE(elsewhere, nullptr);
+  EXPECT_EQ(elsewhere->severity, Finding::Severity::kError);
+  EXPECT_THAT(elsewhere->text,
+              AllOf(HasSubstr("survey.csv: lies 45"),
+                    HasSubstr("km from where the photos' GPS is"),
+                    HasSubstr("as EPSG:32633: give that CRS instead of \"EPSG:32632\"")));
+  EXPECT_EQ(FindFinding(georeference, "gps_disagrees"), nullptr);  // Said already.
+  // What there is beside, in a frame of its own.
+  EXPECT_EQ(georeference.source, GeoreferenceSource::kGps);
+  EXPECT_EQ(georeference.frame->crs(), "EPSG:4979");
+  EXPECT_LT(georeference.enu_from_map.translation.norm(), 500.0);
+  for (const MarkerTrack& marker : georeferencer.Constraints().markers) {
+    EXPECT_FALSE(marker.survey);
+  }
+}
+
+TEST_F(GpsTest, RefusesASurveyOfAnotherSiteBeforeAMarkerIsSeen) {
+  Survey elsewhere = scene_.survey;
+  for (SurveyTarget& target : elsewhere.targets) target.point_in_crs.x() += 1200.0;
+  Georeferencer georeferencer({}, scene_.camera);
+  const auto problem = [&](const Survey& survey) {
+    return georeferencer.FindElsewhere(survey, GeoFrame::Around(survey));
+  };
+  EXPECT_FALSE(problem(elsewhere));  // No photo yet.
+  SetPositions({0.0, 0.0, 0.0}, &georeferencer);
+  EXPECT_FALSE(problem(scene_.survey));
+  const auto found = problem(elsewhere);
+  ASSERT_TRUE(found);
+  EXPECT_THAT(found->text,
+              AllOf(HasSubstr("lies 1.19"),
+                    HasSubstr("instead of \"EPSG:32633\""),
+                    HasSubstr("survey of this site"),
+                    HasSubstr("max_gps_distance_m")));
+  // A few photos without a fix and a mistyped target decide nothing.
+  for (std::uint32_t k = 0; k < 10; ++k) georeferencer.SetPosition({k}, {0.0, 0.0, 0.0});
+  Survey mistyped = scene_.survey;
+  mistyped.targets[3].point_in_crs.y() += 500'000.0;
+  EXPECT_FALSE(problem(mistyped));
+
+  GeoreferencerOptions options;
+  options.max_gps_distance_m = 2000.0;
+  Georeferencer trusting(options, scene_.camera);
+  SetPositions({0.0, 0.0, 0.0}, &trusting);
+  EXPECT_FALSE(trusting.FindElsewhere(elsewhere, GeoFrame::Around(elsewhere)));
+}
+
+TEST_F(GpsTest, KnowsThePlaceOfASouthernZoneAndOfTheOtherSideOfTheEarth) {
+  Georeferencer georeferencer({}, scene_.camera);
+  Survey survey;
+  survey.source = "survey.csv";
+  survey.crs = "EPSG:32633";
+  survey.heights = HeightReference::kEllipsoidal;
+  survey.targets.resize(1);
+  survey.targets[0].point_in_crs = {334000.0, 6252000.0, 20.0};
+  georeferencer.SetPosition({0}, {-33.8588, 151.2053, 20.0});  // Sydney, zone 56 south.
+  const auto southern = georeferencer.FindElsewhere(survey, GeoFrame::Around(survey));
+  ASSERT_TRUE(southern);
+  EXPECT_THAT(southern->text, HasSubstr("as EPSG:32756"));
+  georeferencer.SetPosition({0}, {-56.4, -167.7, 20.0});  // About opposite to the survey.
+  const auto opposite = georeferencer.FindElsewhere(survey, GeoFrame::Around(survey));
+  ASSERT_TRUE(opposite);
+  EXPECT_THAT(opposite->text, HasSubstr("lies 20013."));
+}
+
 TEST_F(GpsTest, ALocalSurveyIsHeldAgainstTheScaleOnly) {
   scene_.survey = test::MakeSurveyScene().survey;
   const Georeference georeference = Run();

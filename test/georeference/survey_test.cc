@@ -115,6 +115,17 @@ TEST(ParseSurvey, NamesLineAndCureOfABadLine) {
               HasSubstr("line 2: role \"contol\" is neither control nor check"));
 }
 
+TEST(ParseSurvey, RefusesSigmasInMillimetres) {
+  const std::string header = "id,x_m,y_m,z_m,sigma_m\n1,2,3,4,0.5\n";
+  EXPECT_EQ(ErrorOf(header), "no error");
+  EXPECT_THAT(ErrorOf(header + "2,2,3,5,3\n"),
+              AllOf(HasSubstr("points.csv: line 3: sigma_m 3 is no standard deviation"),
+                    HasSubstr("counts in metres, 0.003 for 3 mm"),
+                    HasSubstr("convert the column")));
+  EXPECT_THAT(ErrorOf("id;x_m;y_m;z_m;sigma_m\n1;2;3;4;0,6\n"),
+              HasSubstr("line 2: sigma_m 0,6 is no"));
+}
+
 TEST(ParseSurvey, NamesBadColumns) {
   EXPECT_THAT(ErrorOf("id,x_ft,y_ft,z_ft\n1,2,3,4\n"),
               AllOf(HasSubstr("line 1: column \"x_ft\" is unknown"), HasSubstr("metres")));

@@ -170,13 +170,27 @@ class GeoreferenceTest(wire.FolderTest):
         return self.write_survey("swapped.csv", rows), {int(control[1]["id"]),
                                                         int(control[4]["id"])}
 
+    def move_to_austria(self, name, east_m):
+        """The same targets, so far east of where the photos were taken."""
+        return self.write_survey(name, [
+            {**row, "x_m": float(row["x_m"]) - 66226.9 + east_m,
+             "y_m": float(row["y_m"]) + 213633.0} for row in self.survey])
+
+    def load_elsewhere(self):
+        """A survey of another place is refused, and the one before stays."""
+        before = self.georeferences.all()[-1].survey
+        answer = self.load(self.move_to_austria("elsewhere.csv", 5000.0), crs="EPSG:31256")
+        self.assertFalse(answer.success)
+        for words in ("elsewhere.csv: lies", "from where the photos' GPS is", "give the CRS",
+                      f"{before} stays in use"):
+            self.assertIn(words, answer.message)
+        self.assertEqual(self.georeferences.all()[-1].survey, before)
+
     def load_on_earth(self):
-        """The same targets in Austria, where no photo was taken."""
+        """The same targets, 100 m from where the photos' GPS is."""
         transforms = wire.Heard("/tf", TFMessage)
         self.addCleanup(transforms.close)
-        rows = [{**row, "x_m": float(row["x_m"]) - 68000.0, "y_m": float(row["y_m"]) + 212000.0}
-                for row in self.survey]
-        path = self.write_survey("austria.csv", rows)
+        path = self.move_to_austria("austria.csv", 100.0)
         answer = self.load(path, crs="EPSG:31256", heights="ellipsoidal")
         self.assertTrue(answer.success, answer.message)
         placed = self.wait_for(lambda g: g.survey == str(path) and g.is_on_earth, "Austria")
@@ -187,8 +201,8 @@ class GeoreferenceTest(wire.FolderTest):
                               t.transform == placed.earth_from_enu
                               for message in heard for t in message.transforms), "earth to enu")
         place = placed.earth_from_enu.translation
-        # 5212 km from the equator along Bessel's meridian is 47.04 degrees north.
-        self.assertAlmostEqual(numpy.hypot(place.x, place.y), 6389.6e3 * numpy.cos(0.8211),
+        # 5213.6 km from the equator along Bessel's meridian is 47.058 degrees north.
+        self.assertAlmostEqual(numpy.hypot(place.x, place.y), 6389.6e3 * numpy.cos(0.8213),
                                delta=2e3)
 
     def test_a_flight_is_placed_while_it_is_flown_and_the_mapper_is_told(self):
@@ -253,6 +267,7 @@ class GeoreferenceTest(wire.FolderTest):
                          ids)
         self.assertIn("exchanged_targets", codes(wrong))
 
+        self.load_elsewhere()
         self.load_on_earth()
         self.assertTrue(self.load("").success)
         self.wait_for(lambda g: g.survey == "" and g.source == "gps" and g.is_coarse, "GPS alone")

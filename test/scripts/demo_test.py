@@ -5,7 +5,10 @@
 
 import contextlib
 import io
+import os
 import pathlib
+import signal
+import subprocess
 import sys
 import tempfile
 import types
@@ -80,6 +83,27 @@ class DemoTest(unittest.TestCase):
         self.assertFalse(launch.wait_for(lambda: False, 0.0))
         self.assertTrue(launch.wait_for(lambda: True, 60.0))
         launch.end()
+
+
+    def test_ctrl_c_ends_it_quietly(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            (folder / "photos").mkdir()
+            (folder / "photos" / "1.jpg").write_text("never looked at")
+            (folder / "camera.yaml").write_text("{image_width: 1, image_height: 1, camera_matrix: {}}")
+            launch = folder / "roslaunch"  # In place of ROS's: says that it runs, then waits.
+            launch.write_text("#!/bin/sh\necho running\nexec sleep 60\n")
+            launch.chmod(0o755)
+            run = subprocess.Popen(
+                [sys.executable, demo.__file__, "--photos", folder / "photos", "--camera",
+                 folder / "camera.yaml", "--out", folder / "out"],
+                env={**os.environ, "PATH": f"{folder}:{os.environ['PATH']}", "DISPLAY": ":99"},
+                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            self.assertEqual(run.stdout.readline(), "running\n")
+            run.send_signal(signal.SIGINT)
+            _, errors = run.communicate(timeout=60.0)
+        self.assertEqual(run.returncode, 130)
+        self.assertEqual(errors, "demo: ended by Ctrl-C\n")
 
 
 if __name__ == "__main__":

@@ -11,6 +11,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "plumbline/camera/camera.h"
+#include "plumbline/map/session_store.h"
+
 namespace plumb::tools {
 namespace {
 
@@ -46,6 +49,10 @@ class CommandsTest : public testing::Test {
     AddCheckCommand(&app, &exit_code);
     AddDetectCommand(&app, &exit_code);
     AddMarkersCommand(&app, &exit_code);
+    AddMeshCommand(&app, &exit_code);
+    AddExportCommand(&app, &exit_code);
+    AddEvaluateCommand(&app, &exit_code);
+    AddGeoreferenceCommand(&app, &exit_code);
     testing::internal::CaptureStdout();
     testing::internal::CaptureStderr();
     error_.clear();
@@ -88,6 +95,64 @@ TEST_F(CommandsTest, CheckSaysToTheShellWhetherAnyPhotoIsUsable) {
   cv::imwrite(Path("photos/textured.png"), textured);
   EXPECT_EQ(Run(line), kDone);
   EXPECT_THAT(out_, HasSubstr("\"usable\":true"));
+}
+
+TEST_F(CommandsTest, AnEmptySessionIsSaidToBeEmptyAndWhatToDo) {
+  std::ofstream(root_ / "poses.csv") << "photo,qw,qx,qy,qz,center_x_m,center_y_m,center_z_m\n";
+  const std::string session = Path("session");
+  const Camera camera = ReadCameraYaml(Path("camera.yaml"));
+  SessionStore(session, camera);
+  const auto expect_refusal = [&](const std::string& words) {
+    const std::string evaluate = "evaluate --truth " + Path("poses.csv");
+    for (const std::string& command : std::vector<std::string>{"mesh", "export", evaluate}) {
+      EXPECT_EQ(Run(command + " --session " + session), kNothingLocated) << command;
+      EXPECT_THAT(error_, HasSubstr(words)) << command;
+      EXPECT_THAT(error_, HasSubstr("run plumbline reconstruct --session " + session)) << command;
+      EXPECT_EQ(out_, "") << command;
+    }
+    EXPECT_EQ(Run("georeference --session " + session), kFailed);
+    EXPECT_THAT(error_, HasSubstr(words));
+  };
+  expect_refusal("holds no photo yet");
+  {
+    SessionStore store(session, camera);
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      store.SavePhoto({i}, std::to_string(i) + ".jpg", {1, 2, 3});
+    }
+  }
+  expect_refusal("none of its 3 photos is located; photos that overlap are needed");
+  {
+    SessionStore store(session, camera);
+    for (std::uint32_t i = 0; i < 2; ++i) {
+      PhotoVerdict verdict;
+      verdict.photo = {i};
+      verdict.status = VerdictStatus::kRefused;
+      verdict.reason = RefusalReason::kTooBlurred;
+      store.SaveVerdict(verdict);
+    }
+  }
+  expect_refusal("none of its 3 photos is located, 2 refused, most as too_blurred");
+  EXPECT_FALSE(fs::exists(session + "/export"));
+}
+
+TEST_F(CommandsTest, EvaluateWantsATruthForAMesh) {
+  SessionStore(Path("session"), ReadCameraYaml(Path("camera.yaml")));
+  EXPECT_EQ(Run("evaluate --session " + Path("session") + " --truth poses.csv --mesh mesh.ply"),
+            kFailed);
+  EXPECT_THAT(error_, HasSubstr("--mesh: nothing to compare it with; give --surface, --laser"));
+}
+
+TEST_F(CommandsTest, HelpNamesTheExitCodes) {
+  for (const char* command : {"mesh", "georeference", "export", "evaluate", "markers"}) {
+    CLI::App app("", "plumbline");
+    ExitCode exit_code = kFailed;
+    AddMarkersCommand(&app, &exit_code);
+    AddMeshCommand(&app, &exit_code);
+    AddExportCommand(&app, &exit_code);
+    AddEvaluateCommand(&app, &exit_code);
+    AddGeoreferenceCommand(&app, &exit_code);
+    EXPECT_THAT(app.get_subcommand(command)->get_footer(), HasSubstr(kExitCodes)) << command;
+  }
 }
 
 TEST_F(CommandsTest, MarkersSaysWhatIsWrongInItsOwnWords) {

@@ -219,6 +219,31 @@ TEST_F(GeoreferenceTest, ExportsInTheCrsOfTheSurvey) {
   EXPECT_EQ(gcp.pointed.size(), 18U);  // The outer photos show four markers, the inner ones eight.
 }
 
+TEST_F(GeoreferenceTest, ExportsOfTheFormerGeoreferenceGo) {
+  WriteSurvey({532112.0, 5212345.0, 361.0}, "# crs: EPSG:32633\n# heights: orthometric\n");
+  Run();
+  const std::string folder = arguments_.session + "/export";
+  ExportSession(SessionStore::OpenExisting(arguments_.session), folder);
+  std::ofstream(folder + "/notes.txt") << "mine";
+  EXPECT_THAT(Run(), Not(HasSubstr("deleted")));  // The same again.
+  EXPECT_TRUE(fs::exists(folder + "/points.ply"));
+  EXPECT_TRUE(fs::exists(folder + "/gcp_list.txt"));
+  WriteSurvey({500.0, 0.0, 20'000.0}, "");
+  EXPECT_THAT(Run(),
+              AllOf(HasSubstr("deleted " + folder + "/points.ply"),
+                    HasSubstr("deleted " + folder + "/gcp_list.txt"),
+                    HasSubstr("plumbline export and plumbline mesh write them anew")));
+  for (const char* name : {"points.ply", "colmap", "frame.json", "gcp_list.txt"}) {
+    EXPECT_FALSE(fs::exists(folder + '/' + name)) << name;
+  }
+  EXPECT_TRUE(fs::exists(folder + "/notes.txt"));
+  // A survey that is refused leaves all as it was.
+  ExportSession(SessionStore::OpenExisting(arguments_.session), folder);
+  std::ofstream(arguments_.survey) << "0,0,0,0\n1,1,0,0\n";
+  ErrorOf();
+  EXPECT_TRUE(fs::exists(folder + "/points.ply"));
+}
+
 TEST_F(GeoreferenceTest, AnOldGeoreferenceIsNotTakenForANewMap) {
   Run();
   {

@@ -46,6 +46,11 @@ class Georeferencer {
   // Where the photo was taken, WGS 84 with ellipsoidal height. Without a height it is not used.
   void SetPosition(PhotoId photo, const GeodeticPosition& position);
 
+  // Why `survey`, whose frame this is, cannot be of these photos: it lies farther from their GPS
+  // than max_gps_distance_m. Update says the same of the survey in use and does not use it. Nothing
+  // if it may be, or no photo has a position yet.
+  std::optional<Finding> FindElsewhere(const Survey& survey, const GeoFrame& frame) const;
+
   // False, and nothing changed, if the delta is no snapshot and not the next in number: ask for a
   // snapshot.
   bool Apply(const MapDelta& delta);

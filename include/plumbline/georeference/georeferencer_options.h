@@ -40,6 +40,9 @@ struct GeoreferencerOptions {
   // GPS without correction is off by up to this, all the flight [m]: more is said aloud.
   double max_gps_offset_m = 10.0;
 
+  // A survey that lies farther from the photos' GPS than this is of another place [m], and refused.
+  double max_gps_distance_m = 1000.0;
+
   // Targets must reach over this part of the model's length and height, from either side.
   double min_coverage = 0.6;
 
@@ -59,6 +62,7 @@ void VisitFields(GeoreferencerOptions& options, Visitor&& visit) {
   visit("gps_sigma_vertical_m", options.gps_sigma_vertical_m);
   visit("gps_in_bundle", options.gps_in_bundle);
   visit("max_gps_offset_m", options.max_gps_offset_m);
+  visit("max_gps_distance_m", options.max_gps_distance_m);
   visit("min_coverage", options.min_coverage);
 }
 

@@ -66,9 +66,10 @@ struct SurveyReading {
 //   ODM  Lines of geo_x geo_y geo_z im_x im_y image [gcp_name]. A name that is a whole number is
 //        the marker's id; other points get ids beyond all markers'.
 // A byte order mark and CR LF are taken. Throws std::runtime_error naming the file, the number and
-// fault of a bad line, and the cure: not a number, an id that no marker has or that stands twice,
-// an unknown CRS or one that does not count in metres or degrees, coordinates outside its area
-// (which also says if exchanged axes would lie inside), no target at all.
+// fault of a bad line, and the cure: not a number, an id that no marker has or that stands twice, a
+// sigma_m above 0.5 m (written in millimetres), an unknown CRS or one that does not count in metres
+// or degrees, coordinates outside its area (which also says if exchanged axes would lie inside), no
+// target at all.
 Survey ReadSurvey(const std::string& path, const SurveyReading& reading = {});
 
 // The same from text; `source` names it in errors.
