@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace plumb {
@@ -114,7 +115,11 @@ std::optional<Ellipse> RefineEllipse(const GraySampler& gray,
     if (static_cast<int>(agreeing_px.size()) < min_points) return std::nullopt;
     result = FitEllipse(agreeing_px);
     if (!result) return std::nullopt;
-    agreeing_px = PointsNear(points_px, *result, 0.4 + 0.02 * mean_radius_px);
+    std::vector<Eigen::Vector2d> near_px =
+        PointsNear(points_px, *result, 0.4 + 0.02 * mean_radius_px);
+    const bool is_settled = near_px == agreeing_px;
+    agreeing_px = std::move(near_px);
+    if (is_settled) break;
   }
   if (static_cast<int>(agreeing_px.size()) < min_points) return std::nullopt;
   return result;
