@@ -9,6 +9,7 @@
 
 #include "calibration/board_bundle.h"
 #include "calibration/center_shift.h"
+#include "common/median.h"
 
 namespace plumb {
 namespace {
@@ -28,12 +29,6 @@ constexpr double kMinNoiseFactor = 0.3;
 constexpr int kMinRedundancy = 8;
 constexpr int kMaxTightenings = 4;
 constexpr double kTightenFactor = 1.3;
-
-double MedianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Views in all and wrong ones, of one photo or marker.
 struct Tally {

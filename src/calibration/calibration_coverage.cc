@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "calibration/photo_size.h"
+#include "common/median.h"
 
 namespace plumb {
 namespace {
@@ -17,12 +18,6 @@ constexpr int kNumCols = 12;
 constexpr double kNearFactor = 1.15;  // Nearer or farther than the usual distance by this.
 constexpr double kMinSlant_deg = 15.0;
 constexpr std::size_t kMinForDirection = 4;
-
-double MedianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 double TiltOf(const CalibrationPhoto& photo) {
   std::vector<double> ratios;

@@ -6,6 +6,7 @@
 
 #include "calibration/svg_canvas.h"
 #include "calibration/wording.h"
+#include "common/median.h"
 #include "plumbline/calibration/calibration_report.h"
 
 namespace plumb {
@@ -49,12 +50,6 @@ struct PhotoFrame {
   Eigen::Vector2d corner;
   Eigen::Vector2d size;
 };
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Returns the lower end.
 double DrawBars(const std::string& title,
@@ -151,7 +146,7 @@ std::string DrawResiduals(const CalibrationResult& result) {
     return canvas.Finish();
   }
   // The median one is drawn 14 points long.
-  const double magnified = 14.0 / std::max(1e-6, Median(lengths));
+  const double magnified = 14.0 / std::max(1e-6, MedianOf(lengths));
   canvas.Text({kMargin, 36.0}, "Residuals: seen less projected", kTitleText);
   for (const CalibrationResidual& residual : result.residuals) {
     const Eigen::Vector2d from = frame.At(residual.pixel);

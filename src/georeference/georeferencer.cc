@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/median.h"
 #include "georeference/finding_text.h"
 #include "georeference/gps_alignment.h"
 #include "georeference/plausibility.h"
@@ -29,12 +30,6 @@ Similarity3 operator*(const Rigid3& c_from_b, const Similarity3& b_from_a) {
   return {b_from_a.scale,
           c_from_b.rotation * b_from_a.rotation,
           c_from_b.rotation * b_from_a.translation + c_from_b.translation};
-}
-
-double MedianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/median.h"
 #include "georeference/finding_text.h"
 #include "georeference/survey_text.h"
 
@@ -17,14 +18,8 @@ constexpr double kEarthRadius_m = 6371e3;
 constexpr double kDegree_rad = M_PI / 180.0;
 constexpr double kMetresPerKilometre = 1000.0;
 
-double MedianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 template <typename Values, typename Coordinate>
-double MedianOf(const Values& values, const Coordinate& coordinate) {
+double MedianCoordinate(const Values& values, const Coordinate& coordinate) {
   std::vector<double> numbers;
   numbers.reserve(values.size());
   for (const auto& value : values) numbers.push_back(coordinate(value));
@@ -103,12 +98,12 @@ std::optional<Finding> FindElsewhere(double max_distance_m,
                                      const std::vector<GeodeticPosition>& positions) {
   if (frame.is_local() || positions.empty()) return std::nullopt;
   GeodeticPosition gps;
-  gps.lat_deg = MedianOf(positions, [](const auto& position) { return position.lat_deg; });
-  gps.lon_deg = MedianOf(positions, [](const auto& position) { return position.lon_deg; });
+  gps.lat_deg = MedianCoordinate(positions, [](const auto& position) { return position.lat_deg; });
+  gps.lon_deg = MedianCoordinate(positions, [](const auto& position) { return position.lon_deg; });
   Eigen::Vector3d point;
   for (int axis = 0; axis < 3; ++axis) {
-    point[axis] =
-        MedianOf(survey.targets, [axis](const auto& target) { return target.point_in_crs[axis]; });
+    point[axis] = MedianCoordinate(
+        survey.targets, [axis](const auto& target) { return target.point_in_crs[axis]; });
   }
   const auto distance_m = DistanceOf_m(frame, point, gps);
   if (!distance_m || *distance_m <= max_distance_m) return std::nullopt;

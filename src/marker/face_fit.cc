@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/median.h"
 #include "marker/face_model.h"
 
 namespace plumb {
@@ -96,12 +97,6 @@ Prediction Predict(std::uint32_t word,
   j(kLightX) = face.value * m.x();
   j(kLightY) = face.value * m.y();
   return prediction;
-}
-
-double MedianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 class Solver {

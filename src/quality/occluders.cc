@@ -55,7 +55,8 @@ void KeepTrueHits(const RTCFilterFunctionNArguments* args) {
 }
 
 RTCDevice NewDevice() {
-  RTCDevice device = rtcNewDevice("threads=1,set_affinity=0");
+  // A number of threads given here would bind all that TBB does in this program, OpenCV's too.
+  RTCDevice device = rtcNewDevice("set_affinity=0");
   if (device == nullptr) throw std::runtime_error("cannot start Embree, which casts the rays");
   return device;
 }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "common/median.h"
 #include "plumbline/geometry/similarity3.h"
 #include "sfm/covisibility.h"
 
@@ -112,12 +113,6 @@ class ProblemBuilder {
   std::unordered_map<PhotoId, std::uint32_t> view_indices_;
 };
 
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // Median depth of the landmarks of each view that has any.
 std::map<PhotoId, double> SceneDistances(const Map& map) {
   std::map<PhotoId, double> distances;
@@ -128,7 +123,7 @@ std::map<PhotoId, double> SceneDistances(const Map& map) {
       const double depth = (view.cam_from_map * map.landmark(id).position_in_map).z();
       if (depth > 0.0) depths.push_back(depth);
     }
-    if (!depths.empty()) distances[photo] = Median(std::move(depths));
+    if (!depths.empty()) distances[photo] = MedianOf(std::move(depths));
   }
   return distances;
 }
@@ -140,7 +135,7 @@ std::map<PhotoId, double> InfluencesByDistance(const Map& map, double exponent) 
   if (influences.empty()) return {};
   std::vector<double> distances;
   for (const auto& [photo, distance] : influences) distances.push_back(distance);
-  const double median = Median(std::move(distances));
+  const double median = MedianOf(std::move(distances));
   for (auto& [photo, influence] : influences) influence = std::pow(influence / median, exponent);
   return influences;
 }

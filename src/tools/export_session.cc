@@ -36,9 +36,10 @@ std::vector<LandmarkState> Placed(std::vector<LandmarkState> landmarks, const Se
 
 }  // namespace
 
-ExportedSession ExportSession(const SessionStore& store, const std::string& folder) {
+ExportedSession ExportSession(const SessionStore& store,
+                              const SessionMap& map,
+                              const std::string& folder) {
   ExportedSession exported;
-  const SessionMap map = ReadSessionMap(store);
   const MapDelta& snapshot = map.snapshot;
   const SessionFrame frame(store, map);
   const auto& georeference = frame.georeference();

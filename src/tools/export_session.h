@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "plumbline/map/session_store.h"
+#include "tools/session_map.h"
 
 namespace plumb::tools {
 
@@ -23,6 +24,8 @@ struct ExportedSession {
 //   frame.json  the CRS and the origin
 // What Plumbline wrote there of another map or georeference is deleted (ExportFolder).
 // Throws std::runtime_error naming the file and the cause.
-ExportedSession ExportSession(const SessionStore& store, const std::string& folder);
+ExportedSession ExportSession(const SessionStore& store,
+                              const SessionMap& map,
+                              const std::string& folder);
 
 }  // namespace plumb::tools

@@ -49,12 +49,13 @@ void AddMeshCommand(CLI::App* app, ExitCode* exit_code) {
     const SessionStore store = SessionStore::OpenExisting(arguments->session);
     const std::string folder =
         arguments->folder.empty() ? arguments->session + "/export" : arguments->folder;
-    if (ReadSessionMap(store).snapshot.views_set.empty()) {
+    const SessionMap map = ReadSessionMap(store);
+    if (map.snapshot.views_set.empty()) {
       std::cerr << WhyNothingIsLocated(store) << "; there is no mesh to make\n";
       *exit_code = kNothingLocated;
       return;
     }
-    const nlohmann::ordered_json report = MeshSession(options, store, folder);
+    const nlohmann::ordered_json report = MeshSession(options, store, map, folder);
     std::cout << report.dump() << '\n';
     for (const auto& line : report.at("stale")) std::cerr << line.get<std::string>() << '\n';
     if (report.contains("outdated")) {

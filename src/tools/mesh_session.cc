@@ -45,10 +45,10 @@ void Place(const SessionFrame& frame, MeshDelta* mesh) {
 
 Json MeshSession(const SurfaceOptions& options,
                  const SessionStore& store,
+                 const SessionMap& map,
                  const std::string& folder) {
   const Stopwatch watch;
   SurfaceMesher mesher(options);
-  const SessionMap map = ReadSessionMap(store);
   const SessionFrame frame(store, map);
   SurfaceUpdate update = *mesher.Apply(map.snapshot);
   Json report = ToJson(update.report);

@@ -8,6 +8,7 @@
 
 #include "plumbline/map/session_store.h"
 #include "plumbline/surface/surface_options.h"
+#include "tools/session_map.h"
 
 namespace plumb::tools {
 
@@ -17,6 +18,7 @@ namespace plumb::tools {
 // std::runtime_error naming the file and the cause, std::invalid_argument for the options.
 nlohmann::ordered_json MeshSession(const SurfaceOptions& options,
                                    const SessionStore& store,
+                                   const SessionMap& map,
                                    const std::string& folder);
 
 }  // namespace plumb::tools

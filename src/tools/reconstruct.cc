@@ -22,6 +22,7 @@
 #include "tools/options_yaml.h"
 #include "tools/photo_list.h"
 #include "tools/photo_reader.h"
+#include "tools/session_map.h"
 #include "tools/session_recorder.h"
 
 namespace plumb::tools {
@@ -190,7 +191,8 @@ void WriteResults(const SessionStore& store,
                   const Stopwatch& wall,
                   RunReport* report,
                   Console* console) {
-  const ExportedSession exported = ExportSession(store, store.folder() + "/export");
+  const ExportedSession exported =
+      ExportSession(store, ReadSessionMap(store), store.folder() + "/export");
   for (const std::string& line : exported.lines) console->PrintLine(line);
   report->wall_s = wall.Seconds();
   report->usage = CurrentProcessUsage();

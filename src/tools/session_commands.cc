@@ -33,14 +33,15 @@ void AddExportCommand(CLI::App* app, ExitCode* exit_code) {
       "--to,--output", arguments->path, "Folder to write to (default: SESSION/export)");
   command->callback([arguments, exit_code] {
     const SessionStore store = SessionStore::OpenExisting(arguments->session);
-    if (ReadSessionMap(store).snapshot.views_set.empty()) {
+    const SessionMap map = ReadSessionMap(store);
+    if (map.snapshot.views_set.empty()) {
       std::cerr << WhyNothingIsLocated(store) << "; there is nothing to export\n";
       *exit_code = kNothingLocated;
       return;
     }
     const std::string folder =
         arguments->path.empty() ? arguments->session + "/export" : arguments->path;
-    const ExportedSession exported = ExportSession(store, folder);
+    const ExportedSession exported = ExportSession(store, map, folder);
     for (const std::string& line : exported.lines) std::cout << line << '\n';
     if (!exported.lacks.empty()) std::cout << exported.lacks << '\n';
     *exit_code = kDone;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the quality of the surface takes a photo beside the surface itself, in time of the
-// processor. Prints JSON.
+// What the quality of the surface takes a photo beside the surface itself, in time of the thread
+// that waits for it and, both together, by the clock. Prints JSON.
 //   quality_benchmark PHOTOS LANDMARKS     over a made-up flight of the paper's size
 //   quality_benchmark replay DELTAS CAMERA over a recorded one (surface_benchmark record)
 #include <algorithm>

@@ -135,8 +135,11 @@ class GeoreferenceTest : public testing::Test {
     return "no error";
   }
 
-  std::vector<std::string> Export() const {
-    return ExportSession(SessionStore::OpenExisting(arguments_.session), root_ + "/out").lines;
+  std::vector<std::string> Export() const { return ExportTo(root_ + "/out"); }
+
+  std::vector<std::string> ExportTo(const std::string& folder) const {
+    const SessionStore store = SessionStore::OpenExisting(arguments_.session);
+    return ExportSession(store, ReadSessionMap(store), folder).lines;
   }
 
   // The header, and the one point behind it.
@@ -223,7 +226,7 @@ TEST_F(GeoreferenceTest, ExportsOfTheFormerGeoreferenceGo) {
   WriteSurvey({532112.0, 5212345.0, 361.0}, "# crs: EPSG:32633\n# heights: orthometric\n");
   Run();
   const std::string folder = arguments_.session + "/export";
-  ExportSession(SessionStore::OpenExisting(arguments_.session), folder);
+  ExportTo(folder);
   std::ofstream(folder + "/notes.txt") << "mine";
   EXPECT_THAT(Run(), Not(HasSubstr("deleted")));  // The same again.
   EXPECT_TRUE(fs::exists(folder + "/points.ply"));
@@ -238,7 +241,7 @@ TEST_F(GeoreferenceTest, ExportsOfTheFormerGeoreferenceGo) {
   }
   EXPECT_TRUE(fs::exists(folder + "/notes.txt"));
   // A survey that is refused leaves all as it was.
-  ExportSession(SessionStore::OpenExisting(arguments_.session), folder);
+  ExportTo(folder);
   std::ofstream(arguments_.survey) << "0,0,0,0\n1,1,0,0\n";
   ErrorOf();
   EXPECT_TRUE(fs::exists(folder + "/points.ply"));

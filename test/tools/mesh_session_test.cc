@@ -63,7 +63,8 @@ std::string TextOf(const std::string& path) {
 
 TEST_F(MeshSessionTest, WritesTheMeshAndTellsWhatItTook) {
   const SessionStore store = MakeWallSession(folder_);
-  const nlohmann::ordered_json report = MeshSession(WideOptions(), store, folder_ + "/export");
+  const nlohmann::ordered_json report =
+      MeshSession(WideOptions(), store, ReadSessionMap(store), folder_ + "/export");
   EXPECT_EQ(report.at("vertices"), 400);
   EXPECT_EQ(report.at("rays"), 4000);
   EXPECT_GT(report.at("faces"), 300);
@@ -81,15 +82,16 @@ TEST_F(MeshSessionTest, FollowsTheGeoreferenceAsThePointsDo) {
   };
   const SessionStore store = MakeWallSession(folder_);
   const std::string folder = folder_ + "/export";
-  MeshSession(WideOptions(), store, folder);
+  MeshSession(WideOptions(), store, ReadSessionMap(store), folder);
   const std::vector<Eigen::Vector3d> in_map = ReadPlyMesh(folder + "/mesh.ply").vertices;
   for (const Place& place :
        {Place{"EPSG:32633", {532110.0, 5212350.0, 360.0}, "EPSG:32633 less 532110 5212350 360"},
         Place{"EPSG:4979", {15.4, 47.06, 400.0}, "enu about 15.4 47.06 400"}}) {
     Georeference(store, place.crs, place.origin);
-    const nlohmann::ordered_json report = MeshSession(WideOptions(), store, folder);
+    const nlohmann::ordered_json report =
+        MeshSession(WideOptions(), store, ReadSessionMap(store), folder);
     EXPECT_EQ(report.at("frame"), place.frame + ", metres");
-    ExportSession(store, folder);
+    ExportSession(store, ReadSessionMap(store), folder);
     const GeoFrame frame(place.crs, HeightReference::kEllipsoidal, place.origin);
     const std::vector<Eigen::Vector3d> vertices = ReadPlyMesh(folder + "/mesh.ply").vertices;
     ASSERT_EQ(vertices.size(), in_map.size());
@@ -139,11 +141,11 @@ TEST_F(MeshSessionTest, FilesOfAnotherGeoreferenceDoNotStayBeside) {
   const SessionStore store = MakeWallSession(folder_);
   const std::string folder = folder_ + "/export";
   Georeference(store, "EPSG:32633", {532110.0, 5212350.0, 360.0});
-  ExportSession(store, folder);
-  EXPECT_TRUE(MeshSession(WideOptions(), store, folder).at("stale").empty());
+  ExportSession(store, ReadSessionMap(store), folder);
+  EXPECT_TRUE(MeshSession(WideOptions(), store, ReadSessionMap(store), folder).at("stale").empty());
   Georeference(store, "EPSG:31256", {-68110.0, 212350.0, 360.0});
   std::ofstream(folder + "/mesh.obj", std::ios::app) << "# smoothed by hand\n";
-  const std::vector<std::string> lines = ExportSession(store, folder).lines;
+  const std::vector<std::string> lines = ExportSession(store, ReadSessionMap(store), folder).lines;
   EXPECT_THAT(lines, testing::Contains(testing::HasSubstr("deleted " + folder + "/mesh.ply")));
   EXPECT_THAT(lines,
               testing::Contains(testing::HasSubstr(
@@ -155,7 +157,8 @@ TEST_F(MeshSessionTest, FilesOfAnotherGeoreferenceDoNotStayBeside) {
 
 TEST_F(MeshSessionTest, OfAnEmptySessionIsAnEmptyMesh) {
   const SessionStore store(folder_, MakeCamera());
-  const nlohmann::ordered_json report = MeshSession(WideOptions(), store, folder_ + "/export");
+  const nlohmann::ordered_json report =
+      MeshSession(WideOptions(), store, ReadSessionMap(store), folder_ + "/export");
   EXPECT_EQ(report.at("faces"), 0);
   EXPECT_TRUE(std::filesystem::exists(folder_ + "/export/mesh.ply"));
 }
