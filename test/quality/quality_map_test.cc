@@ -159,8 +159,11 @@ MeshDelta DeltaBetween(const MeshDelta& before, const MeshDelta& after) {
   return delta;
 }
 
-// Law: whatever came and went, in whatever order, the outcome is that of the state reached.
+// Law: whatever came and went, in whatever order and on however many threads, the outcome is that
+// of the state reached.
 TEST(QualityMap, IsAFunctionOfMapAndMeshAlone) {
+  QualityOptions one_thread;
+  one_thread.num_threads = 1;
   test::Random random(7);
   test::Soup soup = WallWithPillar();
   std::map<PhotoId, ViewState> views;
@@ -193,7 +196,7 @@ TEST(QualityMap, IsAFunctionOfMapAndMeshAlone) {
 
     std::vector<ViewState> all_views;
     for (const auto& [photo, view] : views) all_views.push_back(view);
-    QualityMap fresh{QualityOptions()};
+    QualityMap fresh{one_thread};
     fresh.Apply(MapOf(all_views), snapshot);
     fresh.SetCamera(test::SmallCamera());
     ExpectEqual(map, fresh);
