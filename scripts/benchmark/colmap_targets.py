@@ -20,6 +20,9 @@ from benchmark.measure import log, run_timed  # noqa: E402
 
 MAX_ERROR_PX = 4.0  # GeoreferencerOptions::max_error_px.
 NUM_STEPS = 10      # Of Gauss-Newton; a centre is found after three.
+ALL_ROWS = "all"
+NUM_NEIGHBORS = 40
+MAX_DISTANCE_M = 15.0
 
 
 class WrongCamera:
@@ -32,7 +35,7 @@ class WrongCamera:
 def link_photos(flight, row, folder, max_photos):
     os.makedirs(folder)
     with open(os.path.join(flight, "ground_truth", "rows.csv")) as file:
-        names = [line["photo"] for line in csv.DictReader(file) if line["row"] == row]
+        names = [line["photo"] for line in csv.DictReader(file) if row in (line["row"], ALL_ROWS)]
     for name in names[:max_photos]:
         os.symlink(os.path.abspath(os.path.join(flight, "photos", name)),
                    os.path.join(folder, name))
@@ -40,7 +43,19 @@ def link_photos(flight, row, folder, max_photos):
         raise RuntimeError("%s: no photo of row %s" % (flight, row))
 
 
-def commands(flight, work):
+def matching(database, row):
+    """Each pair of one row. Of all rows that would be a day: each photo and those taken nearest to
+    it, by the GPS in their EXIF."""
+    if row != ALL_ROWS:
+        return ["colmap", "exhaustive_matcher", "--database_path", database,
+                "--SiftMatching.use_gpu", "0"]
+    return ["colmap", "spatial_matcher", "--database_path", database,
+            "--SiftMatching.use_gpu", "0", "--SpatialMatching.ignore_z", "0",
+            "--SpatialMatching.max_num_neighbors", str(NUM_NEIGHBORS),
+            "--SpatialMatching.max_distance", str(MAX_DISTANCE_M)]
+
+
+def commands(flight, row, work):
     model, values = colmap_camera(WrongCamera(flight))
     database = os.path.join(work, "database.db")
     photos = os.path.join(work, "photos")
@@ -52,8 +67,7 @@ def commands(flight, work):
                      "--ImageReader.camera_params", ",".join("%.17g" % v for v in values),
                      "--SiftExtraction.use_gpu", "0",
                      "--SiftExtraction.max_num_features", str(NUM_FEATURES)]),
-        ("match", ["colmap", "exhaustive_matcher", "--database_path", database,
-                   "--SiftMatching.use_gpu", "0"]),
+        ("match", matching(database, row)),
         ("map", ["colmap", "mapper", "--database_path", database, "--image_path", photos,
                  "--output_path", os.path.join(work, "sparse")])]
 
@@ -186,7 +200,7 @@ def measure(plumbline, flight, row, work, max_photos=None, limit_s=None):
     os.makedirs(os.path.join(work, "sparse"))
     link_photos(flight, row, os.path.join(work, "photos"), max_photos)
     result = {"of": asked, "registered": 0, "control_mm": None, "check_mm": None, "wall_s": 0.0, "cpu_s": 0.0}
-    for step, command in commands(flight, work):
+    for step, command in commands(flight, row, work):
         log("colmap: " + step)
         left_s = None if limit_s is None else max(limit_s - result["wall_s"], 0.0)
         timing = run_timed(command, os.path.join(work, "log"), HEADLESS, left_s)
@@ -211,7 +225,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--plumbline", required=True, help="the built program")
     parser.add_argument("--flight", required=True, help="folder by plumbline simulate")
-    parser.add_argument("--row", default="10m")
+    parser.add_argument("--row", default="10m", help="or " + ALL_ROWS)
     parser.add_argument("--photos", type=int, help="only the first so many")
     parser.add_argument("--work", required=True, help="folder for what COLMAP writes, new")
     arguments = parser.parse_args()

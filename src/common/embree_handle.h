@@ -17,10 +17,12 @@ struct EmbreeReleaser {
   }
 };
 
-// Embree's devices and scenes count their users; these are one of them.
+// Embree's devices, scenes and geometries count their users; these are one of them.
 using EmbreeDevice =
     std::unique_ptr<std::remove_pointer_t<RTCDevice>, EmbreeReleaser<&rtcReleaseDevice>>;
 using EmbreeScene =
     std::unique_ptr<std::remove_pointer_t<RTCScene>, EmbreeReleaser<&rtcReleaseScene>>;
+using EmbreeGeometry =
+    std::unique_ptr<std::remove_pointer_t<RTCGeometry>, EmbreeReleaser<&rtcReleaseGeometry>>;
 
 }  // namespace plumb::internal

@@ -7,20 +7,21 @@
 #include <array>
 #include <new>
 #include <stdexcept>
+#include <utility>
 
 namespace plumb::internal {
 namespace {
 
 constexpr int kPacketSize = 16;
 constexpr unsigned kAllMasks = ~0U;
+constexpr std::int32_t kRegionBlocks = 8;  // Along each axis.
 
-// Sixteen rays to one eye, with what the filter needs of them.
+// Up to sixteen rays of one block, with what the filter needs of them.
 struct Cast {
   RTCIntersectContext context;  // First: the filter gets a pointer to it.
-  unsigned geometry = RTC_INVALID_GEOMETRY_ID;
-  Eigen::Vector3d eye = Eigen::Vector3d::Zero();
-  std::array<std::uint32_t, kPacketSize> faces = {};
-  std::array<Eigen::Vector3d, kPacketSize> centers;
+  const BlockId* block = nullptr;
+  const SightLine* lines = nullptr;
+  int num_lines = 0;
 };
 
 // Whether two points lie on different sides of a triangle's plane.
@@ -41,11 +42,11 @@ void KeepTrueHits(const RTCFilterFunctionNArguments* args) {
     if (args->valid[i] != -1) continue;
     const unsigned lane = RTCRayN_id(args->ray, args->N, i);
     const unsigned face = RTCHitN_primID(args->hit, args->N, i);
-    const unsigned geometry = RTCHitN_geomID(args->hit, args->N, i);
     const auto& corner = block.faces[face];
-    const bool is_itself = geometry == cast.geometry && face == cast.faces[lane];
-    if (is_itself || !AreApart(cast.centers[lane],
-                               cast.eye,
+    const SightLine& line = cast.lines[lane];
+    const bool is_itself = face == line.face && block.id == *cast.block;
+    if (is_itself || !AreApart(*line.center_in_map,
+                               *line.eye_in_map,
                                block.vertices[corner[0]].position_in_map,
                                block.vertices[corner[1]].position_in_map,
                                block.vertices[corner[2]].position_in_map)) {
@@ -61,40 +62,16 @@ RTCDevice NewDevice() {
   return device;
 }
 
-void Fill(const Cast& cast, int num_rays, std::array<int, kPacketSize>* valid, RTCRay16* rays) {
-  for (int i = 0; i < kPacketSize; ++i) {
-    (*valid)[static_cast<std::size_t>(i)] = i < num_rays ? -1 : 0;
-    const Eigen::Vector3d& from = cast.centers[static_cast<std::size_t>(std::min(i, num_rays - 1))];
-    const Eigen::Vector3d direction = cast.eye - from;
-    rays->org_x[i] = static_cast<float>(from.x());
-    rays->org_y[i] = static_cast<float>(from.y());
-    rays->org_z[i] = static_cast<float>(from.z());
-    rays->dir_x[i] = static_cast<float>(direction.x());
-    rays->dir_y[i] = static_cast<float>(direction.y());
-    rays->dir_z[i] = static_cast<float>(direction.z());
-    rays->tnear[i] = 0.0F;
-    rays->tfar[i] = 1.0F;
-    rays->time[i] = 0.0F;
-    rays->mask[i] = kAllMasks;
-    rays->id[i] = static_cast<unsigned>(i);
-    rays->flags[i] = 0;
-  }
-}
-
-}  // namespace
-
-Occluders::Occluders() : device_(NewDevice()), scene_(rtcNewScene(device_.get())) {
-  rtcSetSceneFlags(scene_.get(),
+RTCScene NewScene(RTCDevice device) {
+  RTCScene scene = rtcNewScene(device);
+  rtcSetSceneFlags(scene,
                    static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST));
-  rtcCommitScene(scene_.get());
+  rtcCommitScene(scene);
+  return scene;
 }
 
-Occluders::~Occluders() = default;
-
-void Occluders::Set(const MeshBlock& block) {
-  Remove(block.id);
-  if (block.faces.empty()) return;
-  RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+RTCGeometry NewTriangles(RTCDevice device, const MeshBlock& block) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry,
                                                                RTC_BUFFER_TYPE_VERTEX,
                                                                0,
@@ -115,43 +92,107 @@ void Occluders::Set(const MeshBlock& block) {
   rtcSetGeometryUserData(geometry, const_cast<MeshBlock*>(&block));
   rtcSetGeometryOccludedFilterFunction(geometry, &KeepTrueHits);
   rtcCommitGeometry(geometry);
-  geometry_of_block_[block.id] = rtcAttachGeometry(scene_.get(), geometry);
-  rtcReleaseGeometry(geometry);
+  return geometry;
+}
+
+std::int32_t FloorDivide(std::int32_t index) {
+  return index >= 0 ? index / kRegionBlocks : -1 - (-1 - index) / kRegionBlocks;
+}
+
+void Fill(const Cast& cast, std::array<int, kPacketSize>* valid, RTCRay16* rays) {
+  for (int i = 0; i < kPacketSize; ++i) {
+    (*valid)[static_cast<std::size_t>(i)] = i < cast.num_lines ? -1 : 0;
+    const SightLine& line = cast.lines[std::min(i, cast.num_lines - 1)];
+    const Eigen::Vector3d& from = *line.center_in_map;
+    const Eigen::Vector3d direction = *line.eye_in_map - from;
+    rays->org_x[i] = static_cast<float>(from.x());
+    rays->org_y[i] = static_cast<float>(from.y());
+    rays->org_z[i] = static_cast<float>(from.z());
+    rays->dir_x[i] = static_cast<float>(direction.x());
+    rays->dir_y[i] = static_cast<float>(direction.y());
+    rays->dir_z[i] = static_cast<float>(direction.z());
+    rays->tnear[i] = 0.0F;
+    rays->tfar[i] = 1.0F;
+    rays->time[i] = 0.0F;
+    rays->mask[i] = kAllMasks;
+    rays->id[i] = static_cast<unsigned>(i);
+    rays->flags[i] = 0;
+  }
+}
+
+}  // namespace
+
+Occluders::Occluders() : device_(NewDevice()), scene_(NewScene(device_.get())) {}
+
+Occluders::~Occluders() = default;
+
+BlockId Occluders::RegionOf(const BlockId& block) {
+  return {FloorDivide(block.x), FloorDivide(block.y), FloorDivide(block.z)};
+}
+
+Occluders::Region* Occluders::EnsureRegion(const BlockId& id) {
+  Region& region = regions_[id];
+  if (region.scene) return &region;
+  region.scene.reset(NewScene(device_.get()));
+  region.instance.reset(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE));
+  rtcSetGeometryInstancedScene(region.instance.get(), region.scene.get());
+  region.instance_id = rtcAttachGeometry(scene_.get(), region.instance.get());
+  return &region;
+}
+
+void Occluders::Set(const MeshBlock& block) {
+  Remove(block.id);
+  if (block.faces.empty()) return;
+  const EmbreeGeometry geometry(NewTriangles(device_.get(), block));
+  const BlockId region_id = RegionOf(block.id);
+  Region* region = EnsureRegion(region_id);
+  region->geometry_of_block[block.id] = rtcAttachGeometry(region->scene.get(), geometry.get());
+  changed_regions_.insert(region_id);
 }
 
 void Occluders::Remove(const BlockId& id) {
-  const auto found = geometry_of_block_.find(id);
-  if (found == geometry_of_block_.end()) return;
-  rtcDetachGeometry(scene_.get(), found->second);
-  geometry_of_block_.erase(found);
+  const BlockId region_id = RegionOf(id);
+  const auto region = regions_.find(region_id);
+  if (region == regions_.end()) return;
+  const auto found = region->second.geometry_of_block.find(id);
+  if (found == region->second.geometry_of_block.end()) return;
+  rtcDetachGeometry(region->second.scene.get(), found->second);
+  region->second.geometry_of_block.erase(found);
+  changed_regions_.insert(region_id);
 }
 
-void Occluders::Commit() { rtcCommitScene(scene_.get()); }
-
-void Occluders::FindHidden(const MeshBlock& block,
-                           const std::vector<Eigen::Vector3d>& centers_in_map,
-                           const std::vector<std::uint32_t>& face_idxs,
-                           const Eigen::Vector3d& eye_in_map,
-                           std::vector<char>* is_hidden) const {
-  is_hidden->assign(face_idxs.size(), 0);
-  Cast cast;
-  cast.eye = eye_in_map;
-  const auto found = geometry_of_block_.find(block.id);
-  if (found != geometry_of_block_.end()) cast.geometry = found->second;
-  for (std::size_t begin = 0; begin < face_idxs.size(); begin += kPacketSize) {
-    const std::size_t num = std::min<std::size_t>(kPacketSize, face_idxs.size() - begin);
-    for (std::size_t i = 0; i < num; ++i) {
-      cast.faces[i] = face_idxs[begin + i];
-      cast.centers[i] = centers_in_map[begin + i];
+void Occluders::Commit() {
+  for (const BlockId& id : std::exchange(changed_regions_, {})) {
+    Region& region = regions_.at(id);
+    if (region.geometry_of_block.empty()) {
+      rtcDetachGeometry(scene_.get(), region.instance_id);
+      regions_.erase(id);
+      continue;
     }
+    rtcCommitScene(region.scene.get());
+    rtcCommitGeometry(region.instance.get());
+  }
+  rtcCommitScene(scene_.get());
+}
+
+std::vector<char> Occluders::FindHidden(const MeshBlock& block,
+                                        const std::vector<SightLine>& lines) const {
+  std::vector<char> is_hidden(lines.size(), 0);
+  Cast cast;
+  cast.block = &block.id;
+  for (std::size_t begin = 0; begin < lines.size(); begin += kPacketSize) {
+    const std::size_t num = std::min<std::size_t>(kPacketSize, lines.size() - begin);
+    cast.lines = &lines[begin];
+    cast.num_lines = static_cast<int>(num);
     alignas(64) std::array<int, kPacketSize> valid;
     alignas(64) RTCRay16 rays;
-    Fill(cast, static_cast<int>(num), &valid, &rays);
+    Fill(cast, &valid, &rays);
     rtcInitIntersectContext(&cast.context);
-    cast.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    cast.context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     rtcOccluded16(valid.data(), scene_.get(), &cast.context, &rays);
-    for (std::size_t i = 0; i < num; ++i) (*is_hidden)[begin + i] = rays.tfar[i] < 0.0F ? 1 : 0;
+    for (std::size_t i = 0; i < num; ++i) is_hidden[begin + i] = rays.tfar[i] < 0.0F ? 1 : 0;
   }
+  return is_hidden;
 }
 
 }  // namespace plumb::internal

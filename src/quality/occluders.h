@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "common/embree_handle.h"
@@ -12,10 +13,18 @@
 
 namespace plumb::internal {
 
-// The faces of a mesh as obstacles (Embree). Each block has a tree of its own: a change costs what
-// the changed blocks hold. Embree computes in float, and no ray slips through an edge that two
-// faces share; that a face does not hide itself or a neighbour behind it is told in double. Casting
-// is thread-safe while nothing changes.
+// From the centre of a face to an eye.
+struct SightLine {
+  std::uint32_t face = 0;
+  const Eigen::Vector3d* center_in_map = nullptr;
+  const Eigen::Vector3d* eye_in_map = nullptr;
+};
+
+// The faces of a mesh as obstacles (Embree). Each block has a tree of its own, and blocks hang in
+// the trees of regions of eight by eight by eight: a change costs what the changed blocks and their
+// regions hold. Embree computes in float, and no ray slips through an edge that two faces share;
+// that a face does not hide itself or a neighbour behind it is told in double. Casting is
+// thread-safe while nothing changes.
 class Occluders {
  public:
   Occluders();
@@ -31,18 +40,25 @@ class Occluders {
   // After changes, before casting.
   void Commit();
 
-  // For each of `face_idxs` of a block: 1 if a face other than itself lies between its centre and
-  // the eye, else 0.
-  void FindHidden(const MeshBlock& block,
-                  const std::vector<Eigen::Vector3d>& centers_in_map,
-                  const std::vector<std::uint32_t>& face_idxs,
-                  const Eigen::Vector3d& eye_in_map,
-                  std::vector<char>* is_hidden) const;
+  // For each line of a block: 1 if a face other than its own lies between, else 0. Quick if lines
+  // that follow each other begin near each other.
+  std::vector<char> FindHidden(const MeshBlock& block, const std::vector<SightLine>& lines) const;
 
  private:
+  struct Region {
+    EmbreeScene scene;
+    EmbreeGeometry instance;  // Of `scene` in the scene of all.
+    unsigned instance_id = 0;
+    std::map<BlockId, unsigned> geometry_of_block;
+  };
+
+  static BlockId RegionOf(const BlockId& block);
+  Region* EnsureRegion(const BlockId& id);
+
   EmbreeDevice device_;
   EmbreeScene scene_;
-  std::map<BlockId, unsigned> geometry_of_block_;
+  std::map<BlockId, Region> regions_;
+  std::set<BlockId> changed_regions_;
 };
 
 }  // namespace plumb::internal

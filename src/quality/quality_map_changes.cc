@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a step changes: views, lens, blocks.
+#include <algorithm>
 #include <utility>
 
 #include "plumbline/common/options.h"
@@ -29,6 +30,39 @@ Eigen::AlignedBox3d BoxOf(const MeshBlock& block) {
     if (vertex.position_in_map.allFinite()) box.extend(vertex.position_in_map);
   }
   return box;
+}
+
+// Every second bit of a number of ten bits and so on for three axes (Morton, 1966).
+std::uint32_t SpreadBits(std::uint32_t value) {
+  value = (value | (value << 16U)) & 0x030000FFU;
+  value = (value | (value << 8U)) & 0x0300F00FU;
+  value = (value | (value << 4U)) & 0x030C30C3U;
+  return (value | (value << 2U)) & 0x09249249U;
+}
+
+// Of each face along Morton's curve through the box.
+std::vector<std::uint32_t> RanksAlongCurve(const std::vector<FaceShape>& shapes,
+                                           const Eigen::AlignedBox3d& box) {
+  constexpr double kSteps = 1023.0;
+  std::vector<std::uint32_t> ranks(shapes.size(), 0);
+  if (box.isEmpty()) return ranks;
+  const double step = std::max(box.sizes().maxCoeff() / kSteps, 1e-300);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> face_by_code;
+  face_by_code.reserve(shapes.size());
+  for (std::uint32_t face = 0; face < shapes.size(); ++face) {
+    const Eigen::Vector3d place = (shapes[face].center_in_map - box.min()) / step;
+    std::uint32_t code = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double along = place[axis] > 0.0 ? std::min(place[axis], kSteps) : 0.0;
+      code |= SpreadBits(static_cast<std::uint32_t>(along)) << static_cast<unsigned>(axis);
+    }
+    face_by_code.emplace_back(code, face);
+  }
+  std::sort(face_by_code.begin(), face_by_code.end());
+  for (std::uint32_t rank = 0; rank < face_by_code.size(); ++rank) {
+    ranks[face_by_code[rank].second] = rank;
+  }
+  return ranks;
 }
 
 }  // namespace
@@ -142,6 +176,7 @@ void QualityMap::Impl::SetBlock(const MeshBlock& block) {
   stored.shapes = ShapesOf(block);
   BlockState& state = states_[block.id];
   state.box = BoxOf(block);
+  state.ranks = RanksAlongCurve(stored.shapes, state.box);
   occluders_.Set(stored.mesh);
   NoteChange(block.id, state.box);
 }

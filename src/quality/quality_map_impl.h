@@ -36,6 +36,7 @@ class QualityMap::Impl {
   // What of a block is for the making of it only.
   struct BlockState {
     Eigen::AlignedBox3d box;           // Of the faces, which may reach out of the block.
+    std::vector<std::uint32_t> ranks;  // Of each face: neighbours have near ones.
     std::map<PhotoId, SightRow> rows;  // Of views that have at least one value other than 0.
   };
 
@@ -54,6 +55,12 @@ class QualityMap::Impl {
   struct BlockTask {
     std::vector<Look> looks;
     std::vector<LookPast> looks_past;
+  };
+
+  // Whether a view of which a block has a row is hidden from a face.
+  struct Test {
+    internal::SightLine line;
+    float* value = nullptr;  // In the row.
   };
 
   struct BlockOutcome {
@@ -78,12 +85,12 @@ class QualityMap::Impl {
                      const internal::Sight& sight,
                      std::map<BlockId, BlockTask>* tasks) const;
   BlockOutcome Perform(const BlockId& id, const BlockTask& task);
-  std::vector<std::uint32_t> FacesBehind(const BlockId& id, const LookPast& look) const;
-  void MakeRow(const BlockId& id, const Look& look, BlockOutcome* outcome);
-  void Retest(const BlockId& id,
-              const Look& look,
-              const std::vector<std::uint32_t>& faces,
-              BlockOutcome* outcome);
+  void CollectBehind(const BlockId& id, const LookPast& look, std::vector<Test>* tests);
+  void MakeRow(const BlockId& id,
+               const Look& look,
+               std::vector<Test>* tests,
+               BlockOutcome* outcome);
+  bool Decide(const BlockId& id, const std::vector<Test>& tests) const;
   bool Summarize(const BlockId& id);
   void UpdateNoise();
   QualityUpdate Finish();

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "image/parallel_for.h"
@@ -99,19 +100,20 @@ void QualityMap::Impl::PlanLooksPast(PhotoId photo,
 // Changes the block's own state only.
 QualityMap::Impl::BlockOutcome QualityMap::Impl::Perform(const BlockId& id, const BlockTask& task) {
   BlockOutcome outcome;
-  for (const LookPast& look : task.looks_past) {
-    const std::vector<std::uint32_t> faces = FacesBehind(id, look);
-    if (!faces.empty()) Retest(id, look.look, faces, &outcome);
-  }
-  for (const Look& look : task.looks) MakeRow(id, look, &outcome);
+  std::vector<Test> tests;
+  for (const LookPast& look : task.looks_past) CollectBehind(id, look, &tests);
+  for (const Look& look : task.looks) MakeRow(id, look, &tests, &outcome);
+  outcome.num_rays = tests.size();
+  outcome.is_touched = !outcome.new_rows.empty();
+  if (Decide(id, tests)) outcome.is_touched = true;
   return outcome;
 }
 
 // Faces of the block in the view that lie behind what has changed, as it covers the image.
-std::vector<std::uint32_t> QualityMap::Impl::FacesBehind(const BlockId& id,
-                                                         const LookPast& look) const {
-  std::vector<std::uint32_t> faces;
-  const SightRow& row = states_.at(id).rows.at(look.look.photo);
+void QualityMap::Impl::CollectBehind(const BlockId& id,
+                                     const LookPast& look,
+                                     std::vector<Test>* tests) {
+  SightRow& row = states_.at(id).rows.at(look.look.photo);
   const std::vector<FaceShape>& shapes = blocks_.at(id).shapes;
   for (std::uint32_t i = 0; i < row.size(); ++i) {
     if (row[i] == 0.0F) continue;
@@ -120,54 +122,64 @@ std::vector<std::uint32_t> QualityMap::Impl::FacesBehind(const BlockId& id,
       return seen.z() > rect.min_depth && seen.x() >= rect.min.x() && seen.x() <= rect.max.x() &&
              seen.y() >= rect.min.y() && seen.y() <= rect.max.y();
     };
-    if (std::any_of(look.before.begin(), look.before.end(), is_before)) faces.push_back(i);
+    if (std::any_of(look.before.begin(), look.before.end(), is_before)) {
+      tests->push_back({{i, &shapes[i].center_in_map, &look.look.sight->eye_in_map()}, &row[i]});
+    }
   }
-  return faces;
 }
 
-void QualityMap::Impl::MakeRow(const BlockId& id, const Look& look, BlockOutcome* outcome) {
+void QualityMap::Impl::MakeRow(const BlockId& id,
+                               const Look& look,
+                               std::vector<Test>* tests,
+                               BlockOutcome* outcome) {
   const std::vector<FaceShape>& shapes = blocks_.at(id).shapes;
   SightRow row(shapes.size(), 0.0F);
-  std::vector<std::uint32_t> faces;
+  bool is_any = false;
   for (std::uint32_t i = 0; i < shapes.size(); ++i) {
     const FaceShape& shape = shapes[i];
     const Eigen::Vector3d towards_eye = look.sight->eye_in_map() - shape.center_in_map;
     if (!(shape.normal_in_map.dot(towards_eye) > 0.0)) continue;
     const std::optional<PixelByPoint> pixel_by_point = look.sight->Look(shape.center_in_map);
     if (!pixel_by_point) continue;
-    row[i] = static_cast<float>(internal::StretchOfPixel(*pixel_by_point, shape.normal_in_map));
-    if (row[i] > 0.0F) {
-      faces.push_back(i);
-    } else {
-      row[i] = 0.0F;  // Not a number.
-    }
+    const auto stretch =
+        static_cast<float>(internal::StretchOfPixel(*pixel_by_point, shape.normal_in_map));
+    if (!(stretch > 0.0F)) continue;
+    row[i] = stretch;
+    is_any = true;
   }
-  if (faces.empty()) return;
-  states_.at(id).rows.insert_or_assign(look.photo, std::move(row));
+  if (!is_any) return;
+  SightRow& stored = states_.at(id).rows[look.photo];
+  stored = std::move(row);
   outcome->new_rows.push_back(look.photo);
-  outcome->is_touched = true;
-  Retest(id, look, faces, outcome);
+  for (std::uint32_t i = 0; i < stored.size(); ++i) {
+    if (stored[i] == 0.0F) continue;
+    tests->push_back({{i, &shapes[i].center_in_map, &look.sight->eye_in_map()}, &stored[i]});
+  }
 }
 
-void QualityMap::Impl::Retest(const BlockId& id,
-                              const Look& look,
-                              const std::vector<std::uint32_t>& faces,
-                              BlockOutcome* outcome) {
-  const QualityBlock& block = blocks_.at(id);
-  std::vector<Eigen::Vector3d> centers;
-  centers.reserve(faces.size());
-  for (const std::uint32_t face : faces) centers.push_back(block.shapes[face].center_in_map);
-  std::vector<char> is_hidden;
-  occluders_.FindHidden(block.mesh, centers, faces, look.sight->eye_in_map(), &is_hidden);
-  outcome->num_rays += faces.size();
-  SightRow& row = states_.at(id).rows.at(look.photo);
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    float& value = row[faces[i]];
-    const float now = is_hidden[i] != 0 ? -std::abs(value) : std::abs(value);
-    if (now == value) continue;
-    value = now;
-    outcome->is_touched = true;
+// Casts the rays, neighbouring ones together, and puts what they tell into the rows; whether that
+// is another thing than before.
+bool QualityMap::Impl::Decide(const BlockId& id, const std::vector<Test>& tests) const {
+  const std::vector<std::uint32_t>& ranks = states_.at(id).ranks;
+  std::vector<std::size_t> place_of_rank(ranks.size() + 1, 0);
+  for (const Test& test : tests) ++place_of_rank[ranks[test.line.face] + 1];
+  std::partial_sum(place_of_rank.begin(), place_of_rank.end(), place_of_rank.begin());
+  std::vector<internal::SightLine> lines(tests.size());
+  std::vector<float*> values(tests.size());
+  for (const Test& test : tests) {
+    const std::size_t place = place_of_rank[ranks[test.line.face]]++;
+    lines[place] = test.line;
+    values[place] = test.value;
   }
+  const std::vector<char> is_hidden = occluders_.FindHidden(blocks_.at(id).mesh, lines);
+  bool is_changed = false;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const float value = std::abs(*values[i]);
+    const float now = is_hidden[i] != 0 ? -value : value;
+    is_changed = is_changed || now != *values[i];
+    *values[i] = now;
+  }
+  return is_changed;
 }
 
 // Sums up the block's rows; whether something came out that was not known.

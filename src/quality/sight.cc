@@ -159,8 +159,10 @@ double StretchOfPixel(const PixelByPoint& pixel_by_point, const Eigen::Vector3d&
   const double a2 = pixel_by_across.squaredNorm();
   const double b2 = pixel_by_along.squaredNorm();
   const double half_sum = 0.5 * (a2 + b2);
+  const double half_difference = 0.5 * (a2 - b2);
   const double product = pixel_by_across.dot(pixel_by_along);
-  const double largest2 = half_sum + std::hypot(0.5 * (a2 - b2), product);
+  const double largest2 =
+      half_sum + std::sqrt(half_difference * half_difference + product * product);
   return std::sqrt(largest2) / std::abs(determinant);
 }
 
