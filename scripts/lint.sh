@@ -30,6 +30,6 @@ mkdir -p "$build/lint"
 cmake -S . -B "$build/lint" -DPLUMBLINE_BUILD_ROS=OFF -DCMAKE_EXPORT_COMPILE_COMMANDS=ON >/dev/null ||
   fail "cmake for clang-tidy"
 # clang 14 does not know avxvnni, for which tile_kernel.cc asks the processor.
-grep '\.cc$' <<<"$core" | grep -v '/tile_kernel\.cc$' | xargs -P "$(nproc)" -n 4 \
-  clang-tidy-14 -p "$build/lint" --quiet 2>"$build/lint/clang-tidy.err" || fail "clang-tidy"
+grep '\.cc$' <<<"$core" | grep -v '/tile_kernel\.cc$' |
+  xargs scripts/tidy.py --build "$build/lint" || fail "clang-tidy"
 exit $failed
