@@ -43,23 +43,13 @@ def link_photos(flight, row, folder, max_photos):
         raise RuntimeError("%s: no photo of row %s" % (flight, row))
 
 
-def matching(database, row):
-    """Each pair of one row. Of all rows that would be a day: each photo and those taken nearest to
-    it, by the GPS in their EXIF."""
-    if row != ALL_ROWS:
-        return ["colmap", "exhaustive_matcher", "--database_path", database,
-                "--SiftMatching.use_gpu", "0"]
-    return ["colmap", "spatial_matcher", "--database_path", database,
-            "--SiftMatching.use_gpu", "0", "--SpatialMatching.ignore_z", "0",
-            "--SpatialMatching.max_num_neighbors", str(NUM_NEIGHBORS),
-            "--SpatialMatching.max_distance", str(MAX_DISTANCE_M)]
-
-
-def commands(flight, row, work):
+def commands(flight, work):
     model, values = colmap_camera(WrongCamera(flight))
     database = os.path.join(work, "database.db")
     photos = os.path.join(work, "photos")
-    # Lens and its distortion are refined, as ours; COLMAP's default keeps the principal point.
+    # Lens and its distortion are refined, as ours; COLMAP's default keeps the principal point. Each
+    # photo is matched with those taken nearest to it, by the GPS in their EXIF: of all pairs, those
+    # of photos that show nothing in common are most.
     return [
         ("extract", ["colmap", "feature_extractor", "--database_path", database,
                      "--image_path", photos, "--ImageReader.single_camera", "1",
@@ -67,7 +57,10 @@ def commands(flight, row, work):
                      "--ImageReader.camera_params", ",".join("%.17g" % v for v in values),
                      "--SiftExtraction.use_gpu", "0",
                      "--SiftExtraction.max_num_features", str(NUM_FEATURES)]),
-        ("match", matching(database, row)),
+        ("match", ["colmap", "spatial_matcher", "--database_path", database,
+                   "--SiftMatching.use_gpu", "0", "--SpatialMatching.ignore_z", "0",
+                   "--SpatialMatching.max_num_neighbors", str(NUM_NEIGHBORS),
+                   "--SpatialMatching.max_distance", str(MAX_DISTANCE_M)]),
         ("map", ["colmap", "mapper", "--database_path", database, "--image_path", photos,
                  "--output_path", os.path.join(work, "sparse")])]
 
@@ -200,7 +193,7 @@ def measure(plumbline, flight, row, work, max_photos=None, limit_s=None):
     os.makedirs(os.path.join(work, "sparse"))
     link_photos(flight, row, os.path.join(work, "photos"), max_photos)
     result = {"of": asked, "registered": 0, "control_mm": None, "check_mm": None, "wall_s": 0.0, "cpu_s": 0.0}
-    for step, command in commands(flight, row, work):
+    for step, command in commands(flight, work):
         log("colmap: " + step)
         left_s = None if limit_s is None else max(limit_s - result["wall_s"], 0.0)
         timing = run_timed(command, os.path.join(work, "log"), HEADLESS, left_s)
