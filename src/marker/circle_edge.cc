@@ -21,11 +21,12 @@ constexpr int kNumFits = 3;
 void SampleRay(const GraySampler& gray,
                const Eigen::Vector2d& on_ellipse_px,
                const Eigen::Vector2d& outward,
-               int half_count,
                std::vector<double>* values) {
-  values->clear();
-  for (int i = -half_count; i <= half_count; ++i) {
-    values->push_back(gray.At(on_ellipse_px + i * kSampleStepPx * outward));
+  const Eigen::Vector2d step = kSampleStepPx * outward;
+  Eigen::Vector2d pixel = on_ellipse_px - static_cast<double>(values->size() / 2) * step;
+  for (double& value : *values) {
+    value = gray.At(pixel);
+    pixel += step;
   }
 }
 
@@ -58,6 +59,7 @@ std::vector<Eigen::Vector2d> PointsNear(const std::vector<Eigen::Vector2d>& poin
                                         double max_distance_px) {
   const Eigen::Matrix2d circle_from_pixel = ellipse.PixelFromCircle().inverse();
   std::vector<Eigen::Vector2d> near;
+  near.reserve(points_px.size());
   for (const Eigen::Vector2d& point : points_px) {
     const Eigen::Vector2d from_center = point - ellipse.center_px;
     const double radius = (circle_from_pixel * from_center).norm();
@@ -75,16 +77,17 @@ std::vector<Eigen::Vector2d> FindEdgePoints(const GraySampler& gray,
                                             int num_directions,
                                             int min_points) {
   const Eigen::Matrix2d pixel_from_circle = ellipse.PixelFromCircle();
-  const int half_count = static_cast<int>(std::ceil(search.reach_px / kSampleStepPx));
+  const auto half_count = static_cast<std::size_t>(std::ceil(search.reach_px / kSampleStepPx));
   const double sign = search.is_dark_inside ? 1.0 : -1.0;
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(2.0 * M_PI / num_directions).toRotationMatrix();
   std::vector<Eigen::Vector2d> points_px;
-  std::vector<double> values;
-  for (int i = 0; i < num_directions; ++i) {
-    const double angle_rad = 2.0 * M_PI * i / num_directions;
-    const Eigen::Vector2d ray =
-        pixel_from_circle * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
+  points_px.reserve(static_cast<std::size_t>(num_directions));
+  std::vector<double> values(2 * half_count + 1);
+  Eigen::Vector2d direction = Eigen::Vector2d::UnitX();
+  for (int i = 0; i < num_directions; ++i, direction = turn * direction) {
+    const Eigen::Vector2d ray = pixel_from_circle * direction;
     const Eigen::Vector2d outward = ray.normalized();
-    SampleRay(gray, ellipse.center_px + ray, outward, half_count, &values);
+    SampleRay(gray, ellipse.center_px + ray, outward, &values);
     const std::optional<double> offset_px = FindRise(values, sign, search.min_step);
     if (offset_px) points_px.push_back(ellipse.center_px + ray + *offset_px * outward);
     const int num_left = num_directions - 1 - i;

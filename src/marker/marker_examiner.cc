@@ -70,14 +70,15 @@ bool HasDarkInside(const GraySampler& gray, const MarkerCandidate& candidate, do
   const double out_px = std::max(kLookOutPerReduction * candidate.reduction, in_px);
   if (!gray.ContainsSquare(ellipse.center_px, ellipse.semi_major_px + out_px)) return false;
   const Eigen::Matrix2d pixel_from_circle = ellipse.PixelFromCircle();
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(2.0 * M_PI / kNumLooks).toRotationMatrix();
+  Eigen::Vector2d direction = Eigen::Vector2d::UnitX();
   std::array<double, kNumLooks> rises;
-  for (int i = 0; i < kNumLooks; ++i) {
-    const double angle_rad = 2.0 * M_PI * i / kNumLooks;
-    const Eigen::Vector2d ray =
-        pixel_from_circle * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
+  for (double& rise : rises) {
+    const Eigen::Vector2d ray = pixel_from_circle * direction;
     const Eigen::Vector2d outward = ray.normalized();
-    rises[static_cast<std::size_t>(i)] = gray.At(ellipse.center_px + ray + out_px * outward) -
-                                         gray.At(ellipse.center_px + ray - in_px * outward);
+    rise = gray.At(ellipse.center_px + ray + out_px * outward) -
+           gray.At(ellipse.center_px + ray - in_px * outward);
+    direction = turn * direction;
   }
   const double mean = std::accumulate(rises.begin(), rises.end(), 0.0) / kNumLooks;
   const auto num_rises = std::count_if(
