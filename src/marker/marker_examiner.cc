@@ -23,6 +23,7 @@ namespace {
 constexpr double kMinFocalPerWidth = 0.5;
 constexpr double kMinEdgeShare = 0.15;  // Of the contrast that an edge rises by within a pixel.
 constexpr double kFineReachPx = 2.0;
+constexpr double kMinSemiMinor = 0.45;  // Of the least diameter of a marker.
 constexpr double kMinDiscPx = 4.0;
 
 // Of the blur's sigma over the outer circle's shorter semi-axis. A cell is 0.22 long: beyond this
@@ -89,12 +90,17 @@ bool HasDarkInside(const GraySampler& gray, const MarkerCandidate& candidate, do
 }  // namespace
 
 std::optional<Ellipse> MarkerExaminer::FindOuterEllipse(const MarkerCandidate& candidate) const {
-  if (!HasDarkInside(gray_, candidate, options_.min_contrast)) return std::nullopt;
+  const double min_semi_minor_px = kMinSemiMinor * options_.min_diameter_px;
   EdgeSearch search;
   search.reach_px = std::max(1.5 * candidate.reduction, 0.12 * candidate.ellipse.semi_minor_px);
+  // Most specks of texture are too small for an edge within reach to be a marker's.
+  if (candidate.ellipse.semi_minor_px + search.reach_px < min_semi_minor_px ||
+      !HasDarkInside(gray_, candidate, options_.min_contrast)) {
+    return std::nullopt;
+  }
   search.min_step = kMinEdgeShare * options_.min_contrast;
   const std::optional<Ellipse> found = RefineEllipse(gray_, candidate.ellipse, search);
-  if (!found || found->semi_minor_px < 0.45 * options_.min_diameter_px ||
+  if (!found || found->semi_minor_px < min_semi_minor_px ||
       found->semi_minor_px < options_.min_axis_ratio * found->semi_major_px) {
     return std::nullopt;
   }
