@@ -120,9 +120,8 @@ class Level {
       part = smooth;
     }
     cv::subtract(mean, part, mean);  // Saturates at 0.
-    cv::Mat dark;
-    cv::threshold(mean, dark, options_.min_darkness, 255.0, cv::THRESH_BINARY);
-    return dark;
+    cv::threshold(mean, mean, options_.min_darkness, 255.0, cv::THRESH_BINARY);
+    return mean;
   }
 
   // The outline is given in the rows from first_row on.
