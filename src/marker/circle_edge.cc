@@ -17,13 +17,15 @@ constexpr int kMaxDirections = 72;
 constexpr double kEdgePointDistancePx = 1.2;
 constexpr int kNumFits = 3;
 
-// Grey values along a ray, at steps of kSampleStepPx about the ellipse.
+// Grey values along a ray, as many as there is room for, at steps of kSampleStepPx about the
+// ellipse.
 void SampleRay(const GraySampler& gray,
                const Eigen::Vector2d& on_ellipse_px,
                const Eigen::Vector2d& outward,
                std::vector<double>* values) {
   const Eigen::Vector2d step = kSampleStepPx * outward;
-  Eigen::Vector2d pixel = on_ellipse_px - static_cast<double>(values->size() / 2) * step;
+  const int middle = static_cast<int>(values->size() / 2);
+  Eigen::Vector2d pixel = on_ellipse_px - middle * step;
   for (double& value : *values) {
     value = gray.At(pixel);
     pixel += step;

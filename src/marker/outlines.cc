@@ -3,6 +3,7 @@
 #include "marker/outlines.h"
 
 #include <array>
+#include <cstdint>
 #include <cstring>
 #include <opencv2/core.hpp>
 
