@@ -29,16 +29,17 @@ Normalization Normalize(const std::vector<Eigen::Vector2d>& points) {
   return result;
 }
 
-// The largest eigenvalue of a matrix whose eigenvalues are real: of the three real roots of its
-// characteristic polynomial, by Viete's cosines (Press et al., Numerical Recipes, 3rd ed., 5.6).
+// The largest eigenvalue of a matrix whose eigenvalues are real, by the cosines of the three roots
+// of its characteristic polynomial (Smith, Eigenvalues of a symmetric 3 x 3 matrix, CACM 4(4),
+// 1961).
 double LargestEigenvalue(const Eigen::Matrix3d& matrix) {
   const double third = matrix.trace() / 3.0;
   const Eigen::Matrix3d rest = matrix - third * Eigen::Matrix3d::Identity();
-  const double q = rest.cwiseProduct(rest.transpose()).sum() / 6.0;  // Of the squared rest's trace.
-  if (!(q > 0.0)) return third;
-  const double root = std::sqrt(q);
-  const double cosine = std::clamp(rest.determinant() / (2.0 * q * root), -1.0, 1.0);
-  return third + 2.0 * root * std::cos(std::acos(cosine) / 3.0);
+  const double square = (rest * rest).trace() / 6.0;
+  if (!(square > 0.0)) return third;
+  const double scale = std::sqrt(square);
+  const double cosine = std::clamp(rest.determinant() / (2.0 * square * scale), -1.0, 1.0);
+  return third + 2.0 * scale * std::cos(std::acos(cosine) / 3.0);
 }
 
 // A vector that a matrix of rank two maps to 0: across two of its rows, those that are least
