@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "image/parallel_for.h"
+#include "marker/outline_moments.h"
 #include "marker/outlines.h"
 
 namespace plumb {
@@ -36,26 +37,39 @@ constexpr int kBandMargin = static_cast<int>(kMaxDiameter) / 2 + kWideWindow / 2
 // a rectangle; digital discs of 6 pixels stay above 0.96, but specks on their rim cost some more.
 constexpr double kMinEllipticity = 0.90;
 
+// The box that holds a candidate is at least so many pixels long and wide.
+constexpr int kMinBoxLength = static_cast<int>(kMinDiameter) - 2;
+constexpr int kMinBoxWidth = 3;
+
+// There and back again. Most outlines in texture are shorter.
+constexpr std::size_t kMinOutlineSize = 2 * (kMinBoxLength - 1);
+
+// For outlines of a few pixels cv::boundingRect mostly unwraps its argument.
+cv::Rect BoxOf(const std::vector<cv::Point>& outline) {
+  cv::Point least = outline.front();
+  cv::Point greatest = outline.front();
+  for (const cv::Point& point : outline) {
+    least = {std::min(least.x, point.x), std::min(least.y, point.y)};
+    greatest = {std::max(greatest.x, point.x), std::max(greatest.y, point.y)};
+  }
+  return {least, greatest + cv::Point(1, 1)};
+}
+
 bool HasPossibleSize(const cv::Rect& box, const MarkerDetectorOptions& options) {
   const int longer = std::max(box.width, box.height);
   const int shorter = std::min(box.width, box.height);
-  return longer <= kMaxDiameter && longer >= kMinDiameter - 2.0 && shorter >= 3 &&
+  return longer <= kMaxDiameter && longer >= kMinBoxLength && shorter >= kMinBoxWidth &&
          shorter >= 0.8 * options.min_axis_ratio * longer;
 }
 
 // The ellipse of an outline's second moments; nothing if the outline is no ellipse.
 std::optional<Ellipse> EllipseOfOutline(const std::vector<cv::Point>& outline) {
-  const cv::Moments moments = cv::moments(outline);
-  if (moments.m00 < 4.0) return std::nullopt;
-  Eigen::Matrix2d spread;
-  spread << moments.mu20, moments.mu11, moments.mu11, moments.mu02;
-  spread /= moments.m00;
-  const double determinant = spread.determinant();
+  const OutlineMoments moments = MomentsOf(outline);
+  if (moments.area_px2 < 4.0) return std::nullopt;
+  const double determinant = moments.spread_px2.determinant();
   if (determinant <= 0.0) return std::nullopt;
-  if (moments.m00 < kMinEllipticity * 4.0 * M_PI * std::sqrt(determinant)) return std::nullopt;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(4.0 * spread);
-  Ellipse ellipse =
-      EllipseOfAffine({moments.m10 / moments.m00, moments.m01 / moments.m00}, eigen.operatorSqrt());
+  if (moments.area_px2 < kMinEllipticity * 4.0 * M_PI * std::sqrt(determinant)) return std::nullopt;
+  Ellipse ellipse = EllipseOfSquare(moments.centroid_px, 4.0 * moments.spread_px2);
   ellipse.semi_major_px += 0.5;  // The outline runs through the centres of the outermost pixels.
   ellipse.semi_minor_px += 0.5;
   return ellipse;
@@ -84,7 +98,8 @@ class Level {
     cv::Mat dark = DarkPixels(rows);
     std::vector<MarkerCandidate> candidates;
     VisitOutlines(dark, [&](const std::vector<cv::Point>& outline) {
-      const cv::Rect box = cv::boundingRect(outline);
+      if (outline.size() < kMinOutlineSize) return;
+      const cv::Rect box = BoxOf(outline);
       const int middle = rows.start + box.y + box.height / 2;
       if (middle < first || middle >= last || !HasPossibleSize(box, options_)) return;
       if (const std::optional<MarkerCandidate> candidate = Candidate(outline, rows.start)) {
@@ -105,9 +120,8 @@ class Level {
       part = smooth;
     }
     cv::subtract(mean, part, mean);  // Saturates at 0.
-    cv::Mat dark;
-    cv::threshold(mean, dark, options_.min_darkness, 255.0, cv::THRESH_BINARY);
-    return dark;
+    cv::threshold(mean, mean, options_.min_darkness, 255.0, cv::THRESH_BINARY);
+    return mean;
   }
 
   // The outline is given in the rows from first_row on.

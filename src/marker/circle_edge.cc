@@ -17,20 +17,9 @@ constexpr int kMaxDirections = 72;
 constexpr double kEdgePointDistancePx = 1.2;
 constexpr int kNumFits = 3;
 
-// Grey values along a ray, at steps of kSampleStepPx about the ellipse.
-void SampleRay(const GraySampler& gray,
-               const Eigen::Vector2d& on_ellipse_px,
-               const Eigen::Vector2d& outward,
-               int half_count,
-               std::vector<double>* values) {
-  values->clear();
-  for (int i = -half_count; i <= half_count; ++i) {
-    values->push_back(gray.At(on_ellipse_px + i * kSampleStepPx * outward));
-  }
-}
-
-// Offset of the steepest rise from the middle [px].
-std::optional<double> FindRise(const std::vector<double>& values, double sign, double min_step) {
+// Offset of the steepest rise from the middle [px], in grey values along a ray at steps of
+// kSampleStepPx. `sign` is 1 where they rise, -1 where they fall.
+std::optional<double> FindRise(const std::vector<int>& values, int sign, double min_step) {
   const int count = static_cast<int>(values.size());
   const auto slope = [&](int i) {
     return sign *
@@ -40,12 +29,12 @@ std::optional<double> FindRise(const std::vector<double>& values, double sign, d
   for (int i = 2; i + 1 < count; ++i) {
     if (slope(i) > slope(steepest)) steepest = i;
   }
-  if (slope(steepest) < min_step) return std::nullopt;
+  if (slope(steepest) < min_step * GraySampler::kRayUnit) return std::nullopt;
   const int middle = count / 2;
   double weight_sum = 0.0;
   double sum = 0.0;
   for (int i = std::max(1, steepest - 3); i <= std::min(count - 2, steepest + 3); ++i) {
-    const double weight = std::max(0.0, slope(i));
+    const double weight = std::max(0, slope(i));
     weight_sum += weight;
     sum += weight * (i - middle);
   }
@@ -58,6 +47,7 @@ std::vector<Eigen::Vector2d> PointsNear(const std::vector<Eigen::Vector2d>& poin
                                         double max_distance_px) {
   const Eigen::Matrix2d circle_from_pixel = ellipse.PixelFromCircle().inverse();
   std::vector<Eigen::Vector2d> near;
+  near.reserve(points_px.size());
   for (const Eigen::Vector2d& point : points_px) {
     const Eigen::Vector2d from_center = point - ellipse.center_px;
     const double radius = (circle_from_pixel * from_center).norm();
@@ -76,15 +66,17 @@ std::vector<Eigen::Vector2d> FindEdgePoints(const GraySampler& gray,
                                             int min_points) {
   const Eigen::Matrix2d pixel_from_circle = ellipse.PixelFromCircle();
   const int half_count = static_cast<int>(std::ceil(search.reach_px / kSampleStepPx));
-  const double sign = search.is_dark_inside ? 1.0 : -1.0;
+  const int sign = search.is_dark_inside ? 1 : -1;
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(2.0 * M_PI / num_directions).toRotationMatrix();
   std::vector<Eigen::Vector2d> points_px;
-  std::vector<double> values;
-  for (int i = 0; i < num_directions; ++i) {
-    const double angle_rad = 2.0 * M_PI * i / num_directions;
-    const Eigen::Vector2d ray =
-        pixel_from_circle * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
+  points_px.reserve(static_cast<std::size_t>(num_directions));
+  std::vector<int> values(static_cast<std::size_t>(2 * half_count + 1));
+  Eigen::Vector2d direction = Eigen::Vector2d::UnitX();
+  for (int i = 0; i < num_directions; ++i, direction = turn * direction) {
+    const Eigen::Vector2d ray = pixel_from_circle * direction;
     const Eigen::Vector2d outward = ray.normalized();
-    SampleRay(gray, ellipse.center_px + ray, outward, half_count, &values);
+    const Eigen::Vector2d step = kSampleStepPx * outward;
+    gray.SampleRay(ellipse.center_px + ray - half_count * step, step, &values);
     const std::optional<double> offset_px = FindRise(values, sign, search.min_step);
     if (offset_px) points_px.push_back(ellipse.center_px + ray + *offset_px * outward);
     const int num_left = num_directions - 1 - i;

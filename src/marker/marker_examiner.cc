@@ -23,6 +23,7 @@ namespace {
 constexpr double kMinFocalPerWidth = 0.5;
 constexpr double kMinEdgeShare = 0.15;  // Of the contrast that an edge rises by within a pixel.
 constexpr double kFineReachPx = 2.0;
+constexpr double kMinSemiMinor = 0.45;  // Of the least diameter of a marker.
 constexpr double kMinDiscPx = 4.0;
 
 // Of the blur's sigma over the outer circle's shorter semi-axis. A cell is 0.22 long: beyond this
@@ -70,14 +71,15 @@ bool HasDarkInside(const GraySampler& gray, const MarkerCandidate& candidate, do
   const double out_px = std::max(kLookOutPerReduction * candidate.reduction, in_px);
   if (!gray.ContainsSquare(ellipse.center_px, ellipse.semi_major_px + out_px)) return false;
   const Eigen::Matrix2d pixel_from_circle = ellipse.PixelFromCircle();
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(2.0 * M_PI / kNumLooks).toRotationMatrix();
+  Eigen::Vector2d direction = Eigen::Vector2d::UnitX();
   std::array<double, kNumLooks> rises;
-  for (int i = 0; i < kNumLooks; ++i) {
-    const double angle_rad = 2.0 * M_PI * i / kNumLooks;
-    const Eigen::Vector2d ray =
-        pixel_from_circle * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
+  for (double& rise : rises) {
+    const Eigen::Vector2d ray = pixel_from_circle * direction;
     const Eigen::Vector2d outward = ray.normalized();
-    rises[static_cast<std::size_t>(i)] = gray.At(ellipse.center_px + ray + out_px * outward) -
-                                         gray.At(ellipse.center_px + ray - in_px * outward);
+    rise = gray.At(ellipse.center_px + ray + out_px * outward) -
+           gray.At(ellipse.center_px + ray - in_px * outward);
+    direction = turn * direction;
   }
   const double mean = std::accumulate(rises.begin(), rises.end(), 0.0) / kNumLooks;
   const auto num_rises = std::count_if(
@@ -88,12 +90,17 @@ bool HasDarkInside(const GraySampler& gray, const MarkerCandidate& candidate, do
 }  // namespace
 
 std::optional<Ellipse> MarkerExaminer::FindOuterEllipse(const MarkerCandidate& candidate) const {
-  if (!HasDarkInside(gray_, candidate, options_.min_contrast)) return std::nullopt;
+  const double min_semi_minor_px = kMinSemiMinor * options_.min_diameter_px;
   EdgeSearch search;
   search.reach_px = std::max(1.5 * candidate.reduction, 0.12 * candidate.ellipse.semi_minor_px);
+  // Most specks of texture are too small for an edge within reach to be a marker's.
+  if (candidate.ellipse.semi_minor_px + search.reach_px < min_semi_minor_px ||
+      !HasDarkInside(gray_, candidate, options_.min_contrast)) {
+    return std::nullopt;
+  }
   search.min_step = kMinEdgeShare * options_.min_contrast;
   const std::optional<Ellipse> found = RefineEllipse(gray_, candidate.ellipse, search);
-  if (!found || found->semi_minor_px < 0.45 * options_.min_diameter_px ||
+  if (!found || found->semi_minor_px < min_semi_minor_px ||
       found->semi_minor_px < options_.min_axis_ratio * found->semi_major_px) {
     return std::nullopt;
   }

@@ -52,6 +52,20 @@ TEST(VisitOutlines, FindsWhatOpenCvFinds) {
   }
 }
 
+TEST(VisitOutlines, TakesPartOfALargerMaskAndAnyValueButZero) {
+  const cv::Mat mask = RandomMask(1, 1.5);
+  cv::Mat larger(mask.rows + 4, mask.cols + 7, CV_8U, cv::Scalar(255));
+  cv::Mat part = larger(cv::Rect(3, 2, mask.cols, mask.rows));
+  mask.copyTo(part);
+  part.setTo(5, mask);
+  std::vector<Outline> outlines;
+  VisitOutlines(part,
+                [&](const std::vector<cv::Point>& points) { outlines.push_back(ToPairs(points)); });
+  EXPECT_EQ(outlines, Visited(mask));
+  part.setTo(255);
+  EXPECT_EQ(cv::countNonZero(larger != 255), 0);  // Nothing beside it was written.
+}
+
 TEST(VisitOutlines, ARingHasTwoAndAPointHasOne) {
   cv::Mat mask = cv::Mat::zeros(40, 40, CV_8U);
   cv::circle(mask, {20, 20}, 12, cv::Scalar(255), 3);

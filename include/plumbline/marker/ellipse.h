@@ -22,6 +22,10 @@ struct Ellipse {
 // The ellipse with a given centre that is the image of the unit circle under `pixel_from_circle`.
 Ellipse EllipseOfAffine(const Eigen::Vector2d& center_px, const Eigen::Matrix2d& pixel_from_circle);
 
+// The same by the square of the map, pixel_from_circle pixel_from_circle^T [px^2]: symmetric, with
+// a determinant of at least 0.
+Ellipse EllipseOfSquare(const Eigen::Vector2d& center_px, const Eigen::Matrix2d& square);
+
 // Least squares on the algebraic distance, constrained to ellipses (Halir & Flusser, Numerically
 // stable direct least squares fitting of ellipses, WSCG 1998), on normalised points.
 // Nothing with fewer than 6 points or if they do not lie about an ellipse.
