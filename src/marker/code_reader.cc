@@ -46,11 +46,16 @@ Eigen::Vector2d Apply(const Eigen::Matrix3d& homography, const Eigen::Vector2d& 
   return (homography * point.homogeneous()).hnormalized();
 }
 
-// The grey values along a circle.
-Unrolled Unroll(const GraySampler& gray, const Eigen::Matrix3d& pixel_from_circle, double radius) {
+// The grey values along a circle; nothing if it is not all in the photo.
+std::optional<Unrolled> Unroll(const GraySampler& gray,
+                               const Eigen::Matrix3d& pixel_from_circle,
+                               double radius) {
   Unrolled values;
   for (int i = 0; i < kNumAngles; ++i) {
-    values(i) = gray.At(Apply(pixel_from_circle, Polar(radius, 2.0 * M_PI * i / kNumAngles)));
+    const Eigen::Vector2d pixel =
+        Apply(pixel_from_circle, Polar(radius, 2.0 * M_PI * i / kNumAngles));
+    if (!gray.Contains(pixel)) return std::nullopt;
+    values(i) = gray.At(pixel);
   }
   return values;
 }
@@ -58,15 +63,16 @@ Unrolled Unroll(const GraySampler& gray, const Eigen::Matrix3d& pixel_from_circl
 bool ShowsCircles(const MarkerDetectorOptions& options,
                   const GraySampler& gray,
                   const Eigen::Matrix3d& pixel_from_circle) {
-  const Unrolled white = Unroll(gray, pixel_from_circle, kWhiteRadius);
-  const Unrolled black = Unroll(gray, pixel_from_circle, kRingRadius);
-  const double contrast = white.mean() - black.mean();
+  const std::optional<Unrolled> white = Unroll(gray, pixel_from_circle, kWhiteRadius);
+  const std::optional<Unrolled> black = Unroll(gray, pixel_from_circle, kRingRadius);
+  if (!white || !black) return false;
+  const double contrast = white->mean() - black->mean();
   if (contrast < 0.5 * options.min_contrast) return false;  // Blur takes up to half of it.
-  const auto num_rises = ((white - black) > kMinCircleRise * contrast).count();
+  const auto num_rises = ((*white - *black) > kMinCircleRise * contrast).count();
   if (static_cast<double>(num_rises) < kMinCircleShare * kNumAngles) return false;
-  const double disc = Unroll(gray, pixel_from_circle, kInDiscRadius).mean();
-  const double around_disc = Unroll(gray, pixel_from_circle, kInnerBlackRadius).mean();
-  return disc - around_disc > kMinDiscRise * contrast;
+  const std::optional<Unrolled> disc = Unroll(gray, pixel_from_circle, kInDiscRadius);
+  const std::optional<Unrolled> around_disc = Unroll(gray, pixel_from_circle, kInnerBlackRadius);
+  return disc && around_disc && disc->mean() - around_disc->mean() > kMinDiscRise * contrast;
 }
 
 // What a cell gives to each neighbour by the blur, by Gauss's integral over the middle of the cell.
@@ -216,7 +222,11 @@ std::optional<CodeReading> ReadCode(const MarkerDetectorOptions& options,
                                     const CodeSearch& search) {
   if (!ShowsCircles(options, gray, pixel_from_circle)) return std::nullopt;
   Unrolled stripe = Unrolled::Zero();
-  for (const double radius : kStripeRadii) stripe += Unroll(gray, pixel_from_circle, radius);
+  for (const double radius : kStripeRadii) {
+    const std::optional<Unrolled> circle = Unroll(gray, pixel_from_circle, radius);
+    if (!circle) return std::nullopt;
+    stripe += *circle;
+  }
   stripe /= static_cast<double>(kStripeRadii.size());
   const double leak = LeakOf(pixel_from_circle, search.blur_px);
   const MarkerCodebook& codebook = MarkerCodebook::Get();
