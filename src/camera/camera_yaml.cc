@@ -14,6 +14,7 @@
 #include <system_error>
 #include <vector>
 
+#include "common/yaml_hint.h"
 #include "plumbline/camera/camera.h"
 
 namespace plumb {
@@ -170,7 +171,7 @@ Camera ParseCameraYaml(const std::string& text, const std::string& source) {
   try {
     root = YAML::Load(text);
   } catch (const YAML::Exception& error) {
-    throw std::runtime_error(source + ": is not YAML: " + error.what());
+    throw std::runtime_error(source + ": is not YAML: " + error.what() + TabulatorHint(text));
   }
   const CameraInfo info(root, source);
   const int width_px = info.PositiveInt("image_width");

@@ -18,6 +18,7 @@ enum Column { kId, kX, kY, kZ, kSigma, kRole, kNumColumns };
 struct Layout {
   char separator = ',';
   std::array<int, kNumColumns> idx_of_column = {0, 1, 2, 3, 4, 5};
+  std::size_t num_columns = kNumColumns;
   bool has_header = false;
   bool is_in_degrees = false;
 };
@@ -49,6 +50,7 @@ Layout ReadLayout(const TextLine& first) {
   const bool is_data = names[0].find_first_of("0123456789") == 0;
   if (is_data) return layout;
   layout.has_header = true;
+  layout.num_columns = names.size();
   layout.idx_of_column.fill(-1);
   for (std::size_t i = 0; i < names.size(); ++i) {
     int& idx = layout.idx_of_column.at(ColumnOf(names[i], first));
@@ -121,6 +123,18 @@ void CheckSigma(double sigma_m, const std::string& text) {
                               "known to no better than 0.5 m");
 }
 
+// Empty fields at the end are what a spreadsheet appends.
+void CheckNumFields(const Layout& layout, const std::vector<std::string>& fields) {
+  const auto last = std::find_if(
+      fields.rbegin(), fields.rend(), [](const std::string& field) { return !field.empty(); });
+  const auto num_fields = static_cast<std::size_t>(fields.rend() - last);
+  if (num_fields <= layout.num_columns) return;
+  throw std::invalid_argument("has " + std::to_string(num_fields) + " fields, but there are " +
+                              std::to_string(layout.num_columns) +
+                              " columns; where numbers have decimal commas, separate the fields by "
+                              "semicolons");
+}
+
 SurveyTarget ReadTarget(const Layout& layout, const TextLine& line, double default_sigma_m) {
   const std::vector<std::string> fields = SplitFields(line.text, layout.separator);
   const auto field = [&](Column column) {
@@ -137,6 +151,7 @@ SurveyTarget ReadTarget(const Layout& layout, const TextLine& line, double defau
                                 " fields; an id and three coordinates are needed, separated by "
                                 "commas, semicolons or tabulators");
   }
+  CheckNumFields(layout, fields);
   SurveyTarget target;
   target.line = line.number;
   target.name = field(kId);

@@ -3,6 +3,7 @@
 #include "ros/mesh_drawing.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
@@ -292,9 +293,11 @@ visualization_msgs::MarkerArray DrawRefused(const std::map<PhotoId, RefusedPhoto
       crosses.points.push_back(ToPointMsg(place - arm));
       crosses.points.push_back(ToPointMsg(place + arm));
     }
-    array.markers.push_back(Text(refused.name + ": " + refused.reason,
-                                 place - 2.0 * size * Eigen::Vector3d::UnitZ(),
-                                 size,
+    std::string reason = refused.reason;
+    std::replace(reason.begin(), reason.end(), '_', ' ');
+    array.markers.push_back(Text(refused.name + ": " + reason,
+                                 place - 1.5 * size * Eigen::Vector3d::UnitZ(),
+                                 0.5 * size,
                                  "refused_name",
                                  static_cast<int>(photo.value),
                                  header));

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/georeference.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -108,15 +110,6 @@ void SetPositions(const std::vector<StoredPhoto>& photos, Georeferencer* georefe
       georeferencer->SetPosition(photo.id, *photo.analysis->metadata.position);
     }
   }
-}
-
-std::string JoinedErrors(const Georeference& georeference) {
-  std::string text;
-  for (const Finding& finding : georeference.findings) {
-    if (finding.severity != Finding::Severity::kError) continue;
-    text += (text.empty() ? "" : "; ") + finding.text;
-  }
-  return text;
 }
 
 // What the bundle did, in a line.
@@ -228,6 +221,16 @@ void CheckIsUsable(const GeoreferenceArguments& arguments, const Georeference& g
                            "line; give --survey");
 }
 
+// Before the work is done that is to be written.
+void PrepareFolder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!error && access(folder.c_str(), W_OK) != 0) error = {errno, std::generic_category()};
+  if (!error) return;
+  throw std::runtime_error(folder + ": cannot be written to: " + error.message() +
+                           "; copy the session to where it can be");
+}
+
 void PrintLines(const Georeference& georeference, Console* console) {
   for (const std::string& line : Describe(georeference)) console->PrintLine(line);
 }
@@ -236,7 +239,6 @@ void WriteFiles(const GeoreferenceArguments& arguments,
                 const SessionGeoreference& result,
                 Console* console) {
   const std::string path = GeoreferencePath(arguments.session);
-  std::filesystem::create_directories(std::filesystem::path(path).parent_path());
   nlohmann::ordered_json json = ToJson(result.georeference);
   json["refined"] = arguments.refine;
   WriteFileAtomically(path,
@@ -279,6 +281,7 @@ SessionGeoreference GeoreferenceSession(const GeoreferenceArguments& arguments,
 void WriteSessionGeoreference(const GeoreferenceArguments& arguments, Console* console) {
   const Settings settings = ReadSettings(arguments.settings);
   std::optional<SessionStore> store = SessionStore::OpenExisting(arguments.session);
+  PrepareFolder(std::filesystem::path(GeoreferencePath(arguments.session)).parent_path());
   const bool had_refinement = store->HasRefinement();
   if (arguments.refine || had_refinement) {  // They are to be written.
     store.emplace(SessionStore(arguments.session, store->camera()));

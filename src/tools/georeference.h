@@ -41,7 +41,11 @@ SessionGeoreference GeoreferenceSession(const GeoreferenceArguments& arguments,
                                         const MapDelta& snapshot,
                                         Console* console);
 
-// A table of the targets and what there is to say, line by line, for a person.
+// What makes a georeference useless, in one line; empty if nothing does.
+std::string JoinedErrors(const Georeference& georeference);
+
+// A table of the targets and what there is to say, line by line, for a person; of a useless
+// georeference the table alone.
 std::vector<std::string> Describe(const Georeference& georeference);
 
 // Computes the georeference, prints it, and writes it to GeoreferencePath, and beside it

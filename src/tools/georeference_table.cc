@@ -50,6 +50,15 @@ std::string FrameLine(const Georeference& georeference) {
 
 }  // namespace
 
+std::string JoinedErrors(const Georeference& georeference) {
+  std::string text;
+  for (const Finding& finding : georeference.findings) {
+    if (finding.severity != Finding::Severity::kError) continue;
+    text += (text.empty() ? "" : "; ") + finding.text;
+  }
+  return text;
+}
+
 std::vector<std::string> Describe(const Georeference& georeference) {
   std::vector<std::string> lines;
   if (!georeference.targets.empty()) {
@@ -58,6 +67,7 @@ std::vector<std::string> Describe(const Georeference& georeference) {
         "sigma");
   }
   for (const TargetReport& target : georeference.targets) lines.push_back(LineOf(target));
+  if (!JoinedErrors(georeference).empty()) return lines;  // What else there is will not be used.
   if (georeference.source == GeoreferenceSource::kTargets) {
     lines.push_back(LineOf("control points", georeference.control));
     lines.push_back(LineOf("check points", georeference.check));

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "common/yaml_hint.h"
+
 namespace plumb::tools {
 namespace {
 
@@ -48,7 +50,7 @@ YAML::Node ParseYaml(const std::string& text, const std::string& source) {
     return YAML::Load(text);
   } catch (const YAML::Exception& error) {
     throw std::runtime_error(source + ": line " + std::to_string(error.mark.line + 1) +
-                             ": is no YAML: " + error.msg);
+                             ": is no YAML: " + error.msg + TabulatorHint(text));
   }
 }
 

@@ -115,6 +115,11 @@ TEST(ParseSurvey, NamesLineAndCureOfABadLine) {
               HasSubstr("line 2: role \"contol\" is neither control nor check"));
 }
 
+TEST(ParseSurvey, TellsOfDecimalCommasAmongCommas) {
+  EXPECT_THAT(ErrorOf("id,x_m,y_m,z_m,sigma_m,role\n1,1,250,2,500,3,750,0,001,control\n"),
+              AllOf(HasSubstr("line 2"), HasSubstr("10 fields"), HasSubstr("semicolons")));
+}
+
 TEST(ParseSurvey, RefusesSigmasInMillimetres) {
   const std::string header = "id,x_m,y_m,z_m,sigma_m\n1,2,3,4,0.5\n";
   EXPECT_EQ(ErrorOf(header), "no error");
