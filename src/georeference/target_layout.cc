@@ -59,12 +59,12 @@ Range RangeAlong(const Eigen::Vector3d& axis,
   return {places[cut], places[places.size() - 1 - cut]};
 }
 
-// "+x" and so on, as the axis points most.
+// "+x" and so on, as the axis points most; z is up in every frame of a survey.
 std::string NameOf(const Eigen::Vector3d& axis) {
   Eigen::Index idx = 0;
   axis.cwiseAbs().maxCoeff(&idx);
-  const char* names[] = {"x", "y", "z"};
-  return (axis[idx] > 0.0 ? "+" : "-") + std::string(names[idx]);
+  if (idx == 2) return axis.z() > 0.0 ? "the top (+z)" : "the bottom (-z)";
+  return (axis[idx] > 0.0 ? "+" : "-") + std::string(idx == 0 ? "x" : "y");
 }
 
 void CheckSide(double min_coverage,

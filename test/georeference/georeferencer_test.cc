@@ -220,7 +220,7 @@ TEST(Georeferencer, WarnsOfABadLayout) {
   EXPECT_EQ(left.source, GeoreferenceSource::kTargets);
   const Georeference low = with([](const auto& point) { return point.z() < 14.0; });
   ASSERT_NE(FindFinding(low, "one_sided_targets"), nullptr);
-  EXPECT_THAT(FindFinding(low, "one_sided_targets")->text, HasSubstr("towards +z"));
+  EXPECT_THAT(FindFinding(low, "one_sided_targets")->text, HasSubstr("towards the top (+z)"));
   int kept = 0;
   const Georeference three = with([&](const auto&) { return kept++ % 4 == 0 && kept < 10; });
   ASSERT_NE(FindFinding(three, "few_targets"), nullptr);
