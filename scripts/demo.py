@@ -10,6 +10,7 @@ session and its report are kept in --out.
 
 import argparse
 import json
+import math
 import os
 import pathlib
 import re
@@ -29,6 +30,8 @@ START_DEADLINE_S = 60.0
 POLL_S = 0.1
 READ_S = 5.0  # For the last lines of a launch that has ended.
 QUEUE_S = 2.0  # A photo that waits no longer came while another one was in work.
+HARMLESS = "[rospack] Error: no such package media_export"  # RViz asks for it; Debian has none.
+MADE_BY_DEMO = ".plumbline_demo"  # Tells a folder that may be emptied.
 DRAW_S = 3.0  # RViz draws ten times a second, in software a good deal slower.
 
 
@@ -63,9 +66,69 @@ def check_camera(path):
         sys.exit(f"{path}: cannot be read: {error.strerror}; {cure}")
     except (UnicodeDecodeError, yaml.YAMLError):
         sys.exit(f"{path}: is no YAML; {cure}")
-    for name in ("image_width", "image_height", "camera_matrix"):
+    fault = camera_fault(content)
+    if fault:
+        sys.exit(f"{path}: {fault}; {cure}")
+
+
+def camera_fault(content):
+    """What is wrong with the content of a camera_info YAML, or None."""
+    for name in ("image_width", "image_height", "camera_matrix", "distortion_model",
+                 "distortion_coefficients"):
         if not isinstance(content, dict) or name not in content:
-            sys.exit(f"{path}: has no {name}; {cure}")
+            return f"has no {name}"
+    for name in ("image_width", "image_height"):
+        if not is_finite([content[name]]) or float(content[name]) < 1:
+            return f"{name} must be a number of pixels, but is {content[name]}"
+    lengths_of_model = {"plumb_bob": [4, 5], "rational_polynomial": [8]}
+    if content["distortion_model"] not in [*lengths_of_model]:
+        return f"distortion_model must be one of {', '.join(lengths_of_model)}"
+    for name, lengths in (("camera_matrix", [9]),
+                          ("distortion_coefficients", lengths_of_model[content["distortion_model"]])):
+        data = content[name].get("data") if isinstance(content[name], dict) else None
+        if not isinstance(data, list) or len(data) not in lengths:
+            return f"{name} must have a list named data of {' or '.join(map(str, lengths))} numbers"
+        if not is_finite(data):
+            return f"{name} must have finite numbers, but has {data}"
+    focal_lengths_px = [float(content["camera_matrix"]["data"][place]) for place in (0, 4)]
+    if min(focal_lengths_px) <= 0.0:
+        return f"the focal lengths must be positive, but are {focal_lengths_px}"
+    return None
+
+
+def is_finite(values):
+    """Whether all are finite numbers; also 1e-3, which YAML 1.1 takes for a word."""
+    try:
+        return all(math.isfinite(float(value)) for value in values)
+    except (TypeError, ValueError):
+        return False
+
+
+def is_own_folder(folder):
+    """Whether a demo made a folder, so that it may be emptied."""
+    if (folder / MADE_BY_DEMO).is_file():
+        return True
+    # Demos once left no such file, but only these; a card they had not flown yet was empty.
+    names = {path.name for path in folder.iterdir()}
+    return ("card" in names and all(re.fullmatch(r"card|session|rviz_\d+\.png", name) for name in names)
+            and ((folder / "session/session.db").is_file() or not any((folder / "card").iterdir())))
+
+
+def make_folder(folder, inputs):
+    """Makes a demo's folder, in place of an earlier demo's; ends with the reason if it may not."""
+    cure = "name another folder as --out, or remove what is there yourself"
+    for path in inputs:
+        if folder == path or folder in path.parents:
+            sys.exit(f"{path}: lies in {folder}, which a demo empties first: copy it elsewhere")
+    try:
+        if folder.exists():
+            if any(folder.iterdir()) and not is_own_folder(folder):
+                sys.exit(f"{folder}: is not empty and was not made by a demo; {cure}")
+            shutil.rmtree(folder)
+        (folder / "card").mkdir(parents=True)
+        (folder / MADE_BY_DEMO).write_text("The next demo with this folder as --out deletes it.\n")
+    except OSError as error:
+        sys.exit(f"{error.filename}: {error.strerror}; {cure}")
 
 
 class Launch:
@@ -81,6 +144,8 @@ class Launch:
 
     def _show(self):
         for line in self._process.stdout:
+            if line.strip() == HARMLESS:
+                continue
             print(line, end="", flush=True)
             if "FATAL" in line:
                 self._fatal = re.sub(r"\x1b\[[0-9;]*m|\[FATAL\] *|\[\d+\.\d+\]: *", "", line).strip()
@@ -151,17 +216,19 @@ def take_picture(path):
 
 
 def fly(photos, card, launch, verdicts, arguments):
-    """Leaves the photos on the card and waits for their verdicts."""
+    """Leaves the photos on the card and waits for their verdicts; returns how many were readable."""
+    num_left = 0
     for number, photo in enumerate(photos, start=1):
         begin = time.monotonic()
-        fly_photos.leave_photo(photo, card / photo.relative_to(arguments.photos))
+        num_left += fly_photos.leave_photo(photo, card / photo.relative_to(arguments.photos))
         if number in arguments.picture_at and number < len(photos):
-            launch.wait_for(lambda: verdicts.num_photos() >= number, arguments.deadline)
+            launch.wait_for(lambda: verdicts.num_photos() >= num_left, arguments.deadline)
             take_picture(arguments.out / f"rviz_{number:03d}.png")
         launch.check()
         time.sleep(max(0.0, arguments.every - (time.monotonic() - begin)))
-    if not launch.wait_for(lambda: verdicts.num_photos() >= len(photos), arguments.deadline):
+    if not launch.wait_for(lambda: verdicts.num_photos() >= num_left, arguments.deadline):
         print("Not all photos were answered in time.")
+    return num_left
 
 
 def describe_times(verdicts, longest_wait_s):
@@ -232,8 +299,8 @@ def print_georeference(georeference):
         print(f"  {finding.severity}: {finding.text}")
 
 
-def run_flight(launch, arguments):
-    """Flies; returns whether each photo was answered and one was accepted."""
+def run_flight(launch, photos, arguments):
+    """Flies; returns whether each readable photo was answered and one was accepted."""
     import rospy  # After ROS_MASTER_URI is set.
     from plumbline.msg import Georeference, PhotoVerdict, StoredPhotos
     from std_srvs.srv import Trigger
@@ -249,14 +316,15 @@ def run_flight(launch, arguments):
     rospy.Subscriber("/plumbline/stored_photos", StoredPhotos, lambda _: is_mapping.set())
     if not launch.wait_for(is_mapping.is_set, START_DEADLINE_S):
         sys.exit("the mapper does not answer; see its messages above")
-    photos = fly_photos.list_photos(arguments.photos)
-    fly(photos, arguments.out / "card", launch, verdicts, arguments)
+    num_left = fly(photos, arguments.out / "card", launch, verdicts, arguments)
     finish = rospy.ServiceProxy("/plumbline/finish", Trigger)
     answer = finish()
     if not answer.success:
         print(f"The flight is not finished: {answer.message}")
     take_picture(arguments.out / f"rviz_{len(photos):03d}.png")
     print_verdicts(verdicts)
+    if num_left < len(photos):
+        print(f"{len(photos) - num_left} photos could not be read and were left out")
     is_any_accepted = any(verdict.status == "accepted" for verdict in verdicts.all())
     if is_any_accepted:
         print_accuracy(session, arguments.photos.parent / "ground_truth")
@@ -264,7 +332,7 @@ def run_flight(launch, arguments):
         print("No photo was accepted: there is no map.")
     print_georeference(georeferences[-1])
     print(f"Report: {session / 'report.json'}")
-    return is_any_accepted and verdicts.num_photos() == len(photos)
+    return is_any_accepted and verdicts.num_photos() == num_left
 
 
 def wait_for_master(launch):
@@ -280,7 +348,8 @@ def parse_arguments():
     parser.add_argument("--survey", type=pathlib.Path,
                         help="of the targets; by default the survey.csv beside the photos, if any")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("build/demo"),
-                        help="folder for pictures and session; emptied first")
+                        help="folder for pictures and session, new or of an earlier demo, which is "
+                             "deleted first")
     parser.add_argument("--every", type=float, default=1.0, help="seconds from photo to photo")
     parser.add_argument("--deadline", type=float, default=120.0,
                         help="seconds to wait for the last verdicts")
@@ -292,15 +361,21 @@ def parse_arguments():
 
 def main():
     arguments = parse_arguments()
-    if not arguments.photos.is_dir() or not fly_photos.list_photos(arguments.photos):
+    try:
+        photos = fly_photos.list_photos(arguments.photos.resolve())
+    except OSError as error:
+        sys.exit(f"{error.filename}: {error.strerror}: give PHOTOS= and CAMERA=")
+    if not photos:
         sys.exit(f"{arguments.photos} holds no photos: give PHOTOS= and CAMERA=")
     check_camera(arguments.camera)
     arguments.photos = arguments.photos.resolve()
     beside = arguments.photos.parent / "survey.csv"
     survey = arguments.survey or (beside if beside.exists() else None)
+    if survey and not survey.is_file():
+        sys.exit(f"{survey}: there is no such file; correct --survey or leave it out")
     arguments.out = arguments.out.resolve()
-    shutil.rmtree(arguments.out, ignore_errors=True)
-    (arguments.out / "card").mkdir(parents=True)
+    make_folder(arguments.out, [path.resolve() for path in
+                                (arguments.photos, arguments.camera, survey) if path])
 
     display = None if os.environ.get("DISPLAY") else start_virtual_display()
     port = free_port()
@@ -313,7 +388,7 @@ def main():
          f"record:={str(arguments.record).lower()}"])
     try:
         wait_for_master(launch)
-        is_complete = run_flight(launch, arguments)
+        is_complete = run_flight(launch, photos, arguments)
     finally:
         launch.end()
         if display:
