@@ -10,11 +10,9 @@ session and its report are kept in --out.
 
 import argparse
 import json
-import math
 import os
 import pathlib
 import re
-import shutil
 import signal
 import socket
 import subprocess
@@ -22,8 +20,7 @@ import sys
 import threading
 import time
 
-import yaml
-
+import demo_inputs
 import fly_photos
 
 START_DEADLINE_S = 60.0
@@ -31,7 +28,6 @@ POLL_S = 0.1
 READ_S = 5.0  # For the last lines of a launch that has ended.
 QUEUE_S = 2.0  # A photo that waits no longer came while another one was in work.
 HARMLESS = "[rospack] Error: no such package media_export"  # RViz asks for it; Debian has none.
-MADE_BY_DEMO = ".plumbline_demo"  # Tells a folder that may be emptied.
 DRAW_S = 3.0  # RViz draws ten times a second, in software a good deal slower.
 
 
@@ -55,80 +51,6 @@ def start_virtual_display():
     os.environ["DISPLAY"] = f":{number}"
     os.environ["LIBGL_ALWAYS_SOFTWARE"] = "1"
     return server
-
-
-def check_camera(path):
-    """Ends with what is wrong if a file is no camera calibration at all; the nodes check the rest."""
-    cure = "give CAMERA= the ROS camera_info YAML of the camera that took the photos"
-    try:
-        content = yaml.safe_load(path.read_text())
-    except OSError as error:
-        sys.exit(f"{path}: cannot be read: {error.strerror}; {cure}")
-    except (UnicodeDecodeError, yaml.YAMLError):
-        sys.exit(f"{path}: is no YAML; {cure}")
-    fault = camera_fault(content)
-    if fault:
-        sys.exit(f"{path}: {fault}; {cure}")
-
-
-def camera_fault(content):
-    """What is wrong with the content of a camera_info YAML, or None."""
-    for name in ("image_width", "image_height", "camera_matrix", "distortion_model",
-                 "distortion_coefficients"):
-        if not isinstance(content, dict) or name not in content:
-            return f"has no {name}"
-    for name in ("image_width", "image_height"):
-        if not is_finite([content[name]]) or float(content[name]) < 1:
-            return f"{name} must be a number of pixels, but is {content[name]}"
-    lengths_of_model = {"plumb_bob": [4, 5], "rational_polynomial": [8]}
-    if content["distortion_model"] not in [*lengths_of_model]:
-        return f"distortion_model must be one of {', '.join(lengths_of_model)}"
-    for name, lengths in (("camera_matrix", [9]),
-                          ("distortion_coefficients", lengths_of_model[content["distortion_model"]])):
-        data = content[name].get("data") if isinstance(content[name], dict) else None
-        if not isinstance(data, list) or len(data) not in lengths:
-            return f"{name} must have a list named data of {' or '.join(map(str, lengths))} numbers"
-        if not is_finite(data):
-            return f"{name} must have finite numbers, but has {data}"
-    focal_lengths_px = [float(content["camera_matrix"]["data"][place]) for place in (0, 4)]
-    if min(focal_lengths_px) <= 0.0:
-        return f"the focal lengths must be positive, but are {focal_lengths_px}"
-    return None
-
-
-def is_finite(values):
-    """Whether all are finite numbers; also 1e-3, which YAML 1.1 takes for a word."""
-    try:
-        return all(math.isfinite(float(value)) for value in values)
-    except (TypeError, ValueError):
-        return False
-
-
-def is_own_folder(folder):
-    """Whether a demo made a folder, so that it may be emptied."""
-    if (folder / MADE_BY_DEMO).is_file():
-        return True
-    # Demos once left no such file, but only these; a card they had not flown yet was empty.
-    names = {path.name for path in folder.iterdir()}
-    return ("card" in names and all(re.fullmatch(r"card|session|rviz_\d+\.png", name) for name in names)
-            and ((folder / "session/session.db").is_file() or not any((folder / "card").iterdir())))
-
-
-def make_folder(folder, inputs):
-    """Makes a demo's folder, in place of an earlier demo's; ends with the reason if it may not."""
-    cure = "name another folder as --out, or remove what is there yourself"
-    for path in inputs:
-        if folder == path or folder in path.parents:
-            sys.exit(f"{path}: lies in {folder}, which a demo empties first: copy it elsewhere")
-    try:
-        if folder.exists():
-            if any(folder.iterdir()) and not is_own_folder(folder):
-                sys.exit(f"{folder}: is not empty and was not made by a demo; {cure}")
-            shutil.rmtree(folder)
-        (folder / "card").mkdir(parents=True)
-        (folder / MADE_BY_DEMO).write_text("The next demo with this folder as --out deletes it.\n")
-    except OSError as error:
-        sys.exit(f"{error.filename}: {error.strerror}; {cure}")
 
 
 class Launch:
@@ -216,7 +138,7 @@ def take_picture(path):
 
 
 def fly(photos, card, launch, verdicts, arguments):
-    """Leaves the photos on the card and waits for their verdicts; returns how many were readable."""
+    """Leaves the photos on the card and waits for verdicts; returns how many were readable."""
     num_left = 0
     for number, photo in enumerate(photos, start=1):
         begin = time.monotonic()
@@ -367,15 +289,15 @@ def main():
         sys.exit(f"{error.filename}: {error.strerror}: give PHOTOS= and CAMERA=")
     if not photos:
         sys.exit(f"{arguments.photos} holds no photos: give PHOTOS= and CAMERA=")
-    check_camera(arguments.camera)
+    demo_inputs.check_camera(arguments.camera)
     arguments.photos = arguments.photos.resolve()
     beside = arguments.photos.parent / "survey.csv"
     survey = arguments.survey or (beside if beside.exists() else None)
     if survey and not survey.is_file():
         sys.exit(f"{survey}: there is no such file; correct --survey or leave it out")
     arguments.out = arguments.out.resolve()
-    make_folder(arguments.out, [path.resolve() for path in
-                                (arguments.photos, arguments.camera, survey) if path])
+    demo_inputs.make_folder(arguments.out, [path.resolve() for path in (
+        arguments.photos, arguments.camera, survey) if path])
 
     display = None if os.environ.get("DISPLAY") else start_virtual_display()
     port = free_port()

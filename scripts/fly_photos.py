@@ -15,8 +15,9 @@ MAX_DEPTH = 3  # As deep as the folder watcher looks.
 
 
 def list_photos(folder, depth=MAX_DEPTH):
-    """The photos of a folder and its sub-folders by name; no hidden ones, linked folders and sessions,
-    nor what is no file, such as a link to nothing. Raises OSError.
+    """The photos of a folder and its sub-folders by name; none of hidden, linked ones and sessions.
+
+    Links to nothing, and whatever else is no file, are left out. Raises OSError.
     """
     photos = []
     for path in sorted(pathlib.Path(folder).iterdir()):
@@ -31,11 +32,12 @@ def list_photos(folder, depth=MAX_DEPTH):
 
 
 def leave_photo(photo, target, num_pieces=8, duration_s=0.1):
-    """Writes one photo under its final path, in pieces over some time; False if it cannot be read."""
+    """Writes a photo under its final path, in pieces over some time; False if it is unreadable."""
     try:
         data = photo.read_bytes()
     except OSError as error:
-        print(f"{photo}: left out, it cannot be read: {error.strerror}", file=sys.stderr, flush=True)
+        print(f"{photo}: left out, it cannot be read: {error.strerror}", file=sys.stderr,
+              flush=True)
         return False
     size = max(1, -(-len(data) // num_pieces))
     target.parent.mkdir(parents=True, exist_ok=True)

@@ -19,11 +19,11 @@ PHOTO_TOPIC = "/plumbline/photo"  # Of a recorded flight.
 EX_CONFIG = 78  # What the nodes end with after an error that a restart cannot cure.
 
 
-def source_of(topic):
-    """What to do about a bag without this topic."""
+def another_bag(topic):
+    """Which bag would do."""
     if topic == PHOTO_TOPIC:
         return "give a bag that flight.launch recorded with record:=true"
-    return "give the bag's topic of images as image_topic:="
+    return "give a bag with the images of a camera"
 
 
 def open_fault(bag, topic):
@@ -38,7 +38,7 @@ def open_fault(bag, topic):
     except OSError as error:
         return f"{bag}: cannot be read: {error.strerror}; make it readable for who starts this"
     except Exception as error:  # rosbag passes on whatever bytes it stumbles over.
-        return f"{bag}: is no bag or a damaged one: {error}; copy it anew or {source_of(topic)}"
+        return f"{bag}: is no bag or a damaged one: {error}; copy it anew or {another_bag(topic)}"
 
 
 def topics_fault(bag, topic, topics):
@@ -46,7 +46,8 @@ def topics_fault(bag, topic, topics):
     if find_topic(topic, topics):
         return None
     held = ", ".join(sorted(name for name in topics if topics[name].message_count)) or "nothing"
-    return f"{bag}: has no messages on {topic} (it holds {held}); {source_of(topic)}"
+    cure = another_bag(topic) if topic == PHOTO_TOPIC else "correct image_topic:="
+    return f"{bag}: has no messages on {topic} (it holds {held}); {cure}"
 
 
 def find_topic(topic, topics):
@@ -63,14 +64,14 @@ def fault_of(bag, topic):
         folder = os.environ.get("PLUMBLINE_CALLED_FROM") or os.getcwd()
         return f"bag must be an absolute path, such as {folder}/{bag}, but is {bag}"
     if not topic:
-        return f"{bag}: nobody says what to play of it: {source_of(topic)}"
+        return f"{bag}: there is no image_topic; give the topic of its images as image_topic:="
     path = pathlib.Path(bag)
     if path.is_dir():
         return f"{bag}: is a folder; name the bag in it"
     if not path.exists():
-        return f"{bag}: there is no such file: correct bag:= or {source_of(topic)}"
+        return f"{bag}: there is no such file: correct bag:= or {another_bag(topic)}"
     if path.is_file() and path.stat().st_size == 0:
-        return f"{bag}: is empty; {source_of(topic)}"
+        return f"{bag}: is empty; {another_bag(topic)}"
     return open_fault(bag, topic)
 
 

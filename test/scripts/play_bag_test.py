@@ -47,11 +47,11 @@ class PlayBagTest(unittest.TestCase):
         cases = [(self.folder / "no.bag", TOPIC, "there is no such file", "record:=true"),
                  (self.folder, TOPIC, "is a folder", "name the bag"),
                  (empty, TOPIC, "is empty", "record:=true"),
-                 (text, "/image", "is no bag", "image_topic:="),
+                 (text, "/image", "is no bag", "with the images"),
                  (cut, TOPIC, "was cut off", f"rosbag reindex {cut}"),
                  (self.write("/tf"), TOPIC, f"no messages on {TOPIC} (it holds /tf)", "record:=true"),
                  (self.write(), "/image", "on /image (it holds nothing)", "image_topic:="),
-                 (self.write("/image"), "", "what to play", "image_topic:=")]
+                 (self.write("/image"), "", "no image_topic", "image_topic:=")]
         for bag, topic, fault, cure in cases:
             told = play_bag.fault_of(str(bag), topic)
             self.assertIn(f"{bag}: ", told)
