@@ -13,7 +13,6 @@ import json
 import os
 import pathlib
 import re
-import shutil
 import signal
 import socket
 import subprocess
@@ -21,14 +20,14 @@ import sys
 import threading
 import time
 
-import yaml
-
+import demo_inputs
 import fly_photos
 
 START_DEADLINE_S = 60.0
 POLL_S = 0.1
 READ_S = 5.0  # For the last lines of a launch that has ended.
 QUEUE_S = 2.0  # A photo that waits no longer came while another one was in work.
+HARMLESS = "[rospack] Error: no such package media_export"  # RViz asks for it; Debian has none.
 DRAW_S = 3.0  # RViz draws ten times a second, in software a good deal slower.
 
 
@@ -54,20 +53,6 @@ def start_virtual_display():
     return server
 
 
-def check_camera(path):
-    """Ends with what is wrong if a file is no camera calibration at all; the nodes check the rest."""
-    cure = "give CAMERA= the ROS camera_info YAML of the camera that took the photos"
-    try:
-        content = yaml.safe_load(path.read_text())
-    except OSError as error:
-        sys.exit(f"{path}: cannot be read: {error.strerror}; {cure}")
-    except (UnicodeDecodeError, yaml.YAMLError):
-        sys.exit(f"{path}: is no YAML; {cure}")
-    for name in ("image_width", "image_height", "camera_matrix"):
-        if not isinstance(content, dict) or name not in content:
-            sys.exit(f"{path}: has no {name}; {cure}")
-
-
 class Launch:
     """roslaunch, whose output is shown and searched for why it ends."""
 
@@ -81,6 +66,8 @@ class Launch:
 
     def _show(self):
         for line in self._process.stdout:
+            if line.strip() == HARMLESS:
+                continue
             print(line, end="", flush=True)
             if "FATAL" in line:
                 self._fatal = re.sub(r"\x1b\[[0-9;]*m|\[FATAL\] *|\[\d+\.\d+\]: *", "", line).strip()
@@ -151,17 +138,19 @@ def take_picture(path):
 
 
 def fly(photos, card, launch, verdicts, arguments):
-    """Leaves the photos on the card and waits for their verdicts."""
+    """Leaves the photos on the card and waits for verdicts; returns how many were readable."""
+    num_left = 0
     for number, photo in enumerate(photos, start=1):
         begin = time.monotonic()
-        fly_photos.leave_photo(photo, card / photo.relative_to(arguments.photos))
+        num_left += fly_photos.leave_photo(photo, card / photo.relative_to(arguments.photos))
         if number in arguments.picture_at and number < len(photos):
-            launch.wait_for(lambda: verdicts.num_photos() >= number, arguments.deadline)
+            launch.wait_for(lambda: verdicts.num_photos() >= num_left, arguments.deadline)
             take_picture(arguments.out / f"rviz_{number:03d}.png")
         launch.check()
         time.sleep(max(0.0, arguments.every - (time.monotonic() - begin)))
-    if not launch.wait_for(lambda: verdicts.num_photos() >= len(photos), arguments.deadline):
+    if not launch.wait_for(lambda: verdicts.num_photos() >= num_left, arguments.deadline):
         print("Not all photos were answered in time.")
+    return num_left
 
 
 def describe_times(verdicts, longest_wait_s):
@@ -232,8 +221,8 @@ def print_georeference(georeference):
         print(f"  {finding.severity}: {finding.text}")
 
 
-def run_flight(launch, arguments):
-    """Flies; returns whether each photo was answered and one was accepted."""
+def run_flight(launch, photos, arguments):
+    """Flies; returns whether each readable photo was answered and one was accepted."""
     import rospy  # After ROS_MASTER_URI is set.
     from plumbline.msg import Georeference, PhotoVerdict, StoredPhotos
     from std_srvs.srv import Trigger
@@ -249,14 +238,15 @@ def run_flight(launch, arguments):
     rospy.Subscriber("/plumbline/stored_photos", StoredPhotos, lambda _: is_mapping.set())
     if not launch.wait_for(is_mapping.is_set, START_DEADLINE_S):
         sys.exit("the mapper does not answer; see its messages above")
-    photos = fly_photos.list_photos(arguments.photos)
-    fly(photos, arguments.out / "card", launch, verdicts, arguments)
+    num_left = fly(photos, arguments.out / "card", launch, verdicts, arguments)
     finish = rospy.ServiceProxy("/plumbline/finish", Trigger)
     answer = finish()
     if not answer.success:
         print(f"The flight is not finished: {answer.message}")
     take_picture(arguments.out / f"rviz_{len(photos):03d}.png")
     print_verdicts(verdicts)
+    if num_left < len(photos):
+        print(f"{len(photos) - num_left} photos could not be read and were left out")
     is_any_accepted = any(verdict.status == "accepted" for verdict in verdicts.all())
     if is_any_accepted:
         print_accuracy(session, arguments.photos.parent / "ground_truth")
@@ -264,7 +254,7 @@ def run_flight(launch, arguments):
         print("No photo was accepted: there is no map.")
     print_georeference(georeferences[-1])
     print(f"Report: {session / 'report.json'}")
-    return is_any_accepted and verdicts.num_photos() == len(photos)
+    return is_any_accepted and verdicts.num_photos() == num_left
 
 
 def wait_for_master(launch):
@@ -280,7 +270,8 @@ def parse_arguments():
     parser.add_argument("--survey", type=pathlib.Path,
                         help="of the targets; by default the survey.csv beside the photos, if any")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("build/demo"),
-                        help="folder for pictures and session; emptied first")
+                        help="folder for pictures and session, new or of an earlier demo, which is "
+                             "deleted first")
     parser.add_argument("--every", type=float, default=1.0, help="seconds from photo to photo")
     parser.add_argument("--deadline", type=float, default=120.0,
                         help="seconds to wait for the last verdicts")
@@ -292,15 +283,21 @@ def parse_arguments():
 
 def main():
     arguments = parse_arguments()
-    if not arguments.photos.is_dir() or not fly_photos.list_photos(arguments.photos):
+    try:
+        photos = fly_photos.list_photos(arguments.photos.resolve())
+    except OSError as error:
+        sys.exit(f"{error.filename}: {error.strerror}: give PHOTOS= and CAMERA=")
+    if not photos:
         sys.exit(f"{arguments.photos} holds no photos: give PHOTOS= and CAMERA=")
-    check_camera(arguments.camera)
+    demo_inputs.check_camera(arguments.camera)
     arguments.photos = arguments.photos.resolve()
     beside = arguments.photos.parent / "survey.csv"
     survey = arguments.survey or (beside if beside.exists() else None)
+    if survey and not survey.is_file():
+        sys.exit(f"{survey}: there is no such file; correct --survey or leave it out")
     arguments.out = arguments.out.resolve()
-    shutil.rmtree(arguments.out, ignore_errors=True)
-    (arguments.out / "card").mkdir(parents=True)
+    demo_inputs.make_folder(arguments.out, [path.resolve() for path in (
+        arguments.photos, arguments.camera, survey) if path])
 
     display = None if os.environ.get("DISPLAY") else start_virtual_display()
     port = free_port()
@@ -313,7 +310,7 @@ def main():
          f"record:={str(arguments.record).lower()}"])
     try:
         wait_for_master(launch)
-        is_complete = run_flight(launch, arguments)
+        is_complete = run_flight(launch, photos, arguments)
     finally:
         launch.end()
         if display:

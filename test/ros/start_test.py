@@ -8,6 +8,7 @@ import pathlib
 import subprocess
 import unittest
 
+import rosbag
 import rospy
 import rostest
 from plumbline.msg import Photo, PhotoVerdict, StoredPhotos
@@ -125,13 +126,24 @@ class StartTest(wire.FolderTest):
         self.assertEqual(launch.stdout.count("FATAL"), 1, launch.stdout)
         self.assertIn("/no/such/camera.yaml", launch.stdout)
 
-    def test_roslaunch_names_what_a_relative_path_was_meant_to_be(self):
-        launch = subprocess.run(
+    def replay(self, bag, session):
+        return subprocess.run(
             ["roslaunch", "--no-summary", "plumbline", "replay.launch", "rviz:=false",
-             "bag:=flight.bag", "session:=flight"],
+             f"bag:={bag}", f"session:={session}"],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=self.folder,
-            env={**os.environ, "PWD": str(self.folder)}, timeout=wire.DEADLINE_S, check=False)
-        self.assertIn(f"such as {self.folder}/flight, but is", launch.stdout)
+            env={**os.environ, "PWD": str(self.folder)}, timeout=wire.DEADLINE_S,
+            check=False).stdout
+
+    def test_roslaunch_names_what_a_relative_path_was_meant_to_be(self):
+        bag = self.folder / "flight.bag"
+        with rosbag.Bag(str(bag), "w") as file:
+            file.write("/plumbline/photo", Photo())
+        self.assertIn(f"such as {self.folder}/flight, but is", self.replay(bag, "flight"))
+        self.assertFalse(self.session.exists())
+
+    def test_a_replay_of_no_bag_ends_and_leaves_no_session(self):
+        said = self.replay(self.folder / "no.bag", self.session)
+        self.assertIn(f"FATAL] {self.folder}/no.bag: there is no such file", said)
         self.assertFalse(self.session.exists())
 
     def test_a_name_with_an_umlaut_is_shown_as_it_is(self):

@@ -16,6 +16,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
 import demo
+from demo_inputs_test import CAMERA
 
 
 def verdict(verdict_s, work_s):
@@ -24,20 +25,6 @@ def verdict(verdict_s, work_s):
 
 
 class DemoTest(unittest.TestCase):
-    def test_a_file_that_is_no_camera_is_named_with_the_cure(self):
-        with tempfile.TemporaryDirectory() as folder:
-            camera = pathlib.Path(folder) / "camera.yaml"
-            for content, problem in ((None, "cannot be read"), ("image_width: 1", "image_height"),
-                                     ("{", "no YAML"), ("- 1", "image_width")):
-                if content is not None:
-                    camera.write_text(content)
-                with self.assertRaises(SystemExit) as end:
-                    demo.check_camera(camera)
-                self.assertIn(problem, str(end.exception))
-                self.assertIn("CAMERA=", str(end.exception))
-            camera.write_text("{image_width: 1, image_height: 1, camera_matrix: {}}")
-            demo.check_camera(camera)
-
     def test_work_and_waiting_are_told_apart(self):
         lines = demo.describe_times([verdict(9.0, 1.0)] * 3, 8.0)
         self.assertEqual(lines[0], "median 9.00 s from photo to verdict, 1.00 s of it work")
@@ -78,6 +65,14 @@ class DemoTest(unittest.TestCase):
         launch.end()
         self.assertEqual(str(end.exception), "the flight has ended by itself: no card")
 
+    def test_what_rviz_misses_without_harm_is_not_shown(self):
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said):
+            launch = demo.Launch(["printf", "%s\n", "before", demo.HARMLESS, "after"])
+            launch._process.wait()
+            launch.end()
+        self.assertEqual(said.getvalue(), "before\nafter\n")
+
     def test_a_launch_that_runs_is_waited_for(self):
         launch = demo.Launch(["sleep", "60"])
         self.assertFalse(launch.wait_for(lambda: False, 0.0))
@@ -90,7 +85,7 @@ class DemoTest(unittest.TestCase):
             folder = pathlib.Path(name)
             (folder / "photos").mkdir()
             (folder / "photos" / "1.jpg").write_text("never looked at")
-            (folder / "camera.yaml").write_text("{image_width: 1, image_height: 1, camera_matrix: {}}")
+            (folder / "camera.yaml").write_text(CAMERA)
             launch = folder / "roslaunch"  # In place of ROS's: says that it runs, then waits.
             launch.write_text("#!/bin/sh\necho running\nexec sleep 60\n")
             launch.chmod(0o755)

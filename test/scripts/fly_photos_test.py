@@ -3,7 +3,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Photos are found in sub-folders and left in the same ones."""
 
+import contextlib
+import io
 import pathlib
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -34,6 +37,7 @@ class FlyPhotosTest(unittest.TestCase):
     def test_hidden_ones_links_and_sessions_are_not(self):
         self.write("a.jpg", ".a.jpg", ".trash/b.jpg", "flight/session.db", "flight/photos/c.jpg")
         (self.folder / "loop").symlink_to(self.folder)
+        (self.folder / "gone.jpg").symlink_to(self.folder / "nothing.jpg")
         self.assertEqual(self.found(), ["a.jpg"])
 
     def test_a_photo_is_left_whole_in_a_folder_that_is_made(self):
@@ -41,6 +45,21 @@ class FlyPhotosTest(unittest.TestCase):
         target = self.folder / "card" / "day 1" / "a.jpg"
         fly_photos.leave_photo(self.folder / "a.jpg", target, duration_s=0.0)
         self.assertEqual(target.read_text(), "a.jpg")
+
+    def test_a_photo_that_vanished_is_named_and_left_out(self):
+        target = self.folder / "card" / "a.jpg"
+        said = io.StringIO()
+        with contextlib.redirect_stderr(said):
+            self.assertFalse(fly_photos.leave_photo(self.folder / "a.jpg", target))
+        self.assertIn(f"{self.folder / 'a.jpg'}: left out", said.getvalue())
+        self.assertFalse(target.exists())
+
+    def test_a_folder_that_is_not_there_is_told(self):
+        run = subprocess.run([sys.executable, fly_photos.__file__, self.folder / "no",
+                              self.folder / "card"], capture_output=True, text=True, check=False)
+        self.assertEqual(run.returncode, 1)
+        self.assertTrue(run.stderr.startswith(f"{self.folder / 'no'}: "), run.stderr)
+        self.assertFalse((self.folder / "card").exists())
 
 
 if __name__ == "__main__":
