@@ -97,5 +97,22 @@ TEST_F(CalibrateTest, NamesAFolderThatIsNotThere) {
   EXPECT_THROW(Run(arguments), std::runtime_error);
 }
 
+TEST_F(CalibrateTest, NamesAMissingFolderOfTheOutputBeforeItLooksForMarkers) {
+  SimulateFloor();
+  CalibrateArguments arguments;
+  arguments.photos = Path("simulated/photos");
+  log_.str("");
+  for (const char* output : {"no folder/camera.yaml", "simulated"}) {
+    arguments.output = Path(output);
+    try {
+      Run(arguments);
+      FAIL() << output;
+    } catch (const std::runtime_error& error) {
+      EXPECT_THAT(error.what(), HasSubstr(arguments.output));
+    }
+  }
+  EXPECT_EQ(log_.str(), "");
+}
+
 }  // namespace
 }  // namespace plumb::tools
