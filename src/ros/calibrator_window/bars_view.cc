@@ -26,7 +26,7 @@ void PaintBar(const CoverageBar& bar, bool is_good, const QRect& area, QPainter*
                     painter->fontMetrics().elidedText(
                         QString::fromStdString(bar.label), Qt::ElideRight, label.width()));
   if (bar.wanted == 0) {
-    painter->drawText(frame, Qt::AlignCenter, QString("%1, none needed").arg(bar.count));
+    painter->drawText(frame, Qt::AlignCenter, QString::number(bar.count));
     return;
   }
   const double share = std::min(1.0, static_cast<double>(bar.count) / bar.wanted);

@@ -43,7 +43,7 @@ void CoverageView::paintEvent(QPaintEvent*) {
   painter.setFont(FontOf(*this, 1.0, /*is_bold=*/true));
   painter.drawText(QRect(5 * title_px / 6, 0, width(), title_px),
                    Qt::AlignLeft | Qt::AlignVCenter,
-                   QString("Markers touch %1 % of the image; numbers: their centres")
+                   QString("Touched: %1 % of the image. Numbers: centres")
                        .arg(std::lround(100.0 * coverage_.image_share)));
   painter.setRenderHint(QPainter::Antialiasing);
   painter.setPen(QPen(kInk, 1.5));
