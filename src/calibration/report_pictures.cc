@@ -233,7 +233,7 @@ std::string DrawMarkers(const CalibrationResult& result) {
     std::vector<int> ids;
     for (const LeftOutMarker& marker : result.left_out) ids.push_back(marker.id);
     canvas.Text({kMargin, kWidth - 14.0},
-                "Not drawn, for the report says why: " + NameMarkers(ids),
+                "Not drawn (the report says why): " + NameMarkers(ids),
                 kSmallText);
   }
   if (box.isEmpty()) return canvas.Finish();
