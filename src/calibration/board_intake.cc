@@ -69,6 +69,7 @@ class Intake {
            /*is_serious=*/false);
     DropLonely();
     Build();
+    NameLeftOut();
     return std::move(intake_);
   }
 
@@ -187,6 +188,28 @@ class Intake {
     }
     intake_.board.num_photos = static_cast<int>(intake_.photo_of_board.size());
     intake_.board.num_markers = static_cast<int>(intake_.marker_ids.size());
+  }
+
+  void NameLeftOut() {
+    std::map<int, std::set<std::size_t>> photos_of_marker;
+    for (std::size_t i = 0; i < photos_.size(); ++i) {
+      for (const MarkerDetection& marker : photos_[i].markers) {
+        photos_of_marker[marker.id].insert(i);
+      }
+    }
+    for (const int id : intake_.marker_ids) photos_of_marker.erase(id);
+    for (const auto& [id, photos] : photos_of_marker) {
+      intake_.left_out.push_back({id, WhyLeftOut(id, photos)});
+    }
+  }
+
+  std::string WhyLeftOut(int id, const std::set<std::size_t>& photos) const {
+    if (unknown_ids_.count(id) != 0) return "not on the fixed grid";
+    if (photos.size() == 1) {
+      const std::string& name = photos_[*photos.begin()].name;
+      return (twice_ids_.count(id) != 0 ? "twice in one photo, " : "in one photo only, ") + name;
+    }
+    return "in no two photos that can be used";
   }
 
   void Report(Kind kind,

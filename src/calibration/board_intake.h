@@ -19,6 +19,7 @@ struct BoardIntake {
   std::vector<std::size_t> photo_of_board;     // Place among the given photos, of each.
   std::vector<std::size_t> detection_of_view;  // Place among its photo's markers, of each view.
   std::vector<CalibrationFinding> findings;
+  std::vector<LeftOutMarker> left_out;  // Markers of no photo of the board, by ID.
 };
 
 // Leaves out photos of another size than most, second ones of a name, markers that are there twice

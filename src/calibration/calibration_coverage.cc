@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "calibration/photo_size.h"
+#include "calibration/view_slant.h"
 #include "common/median.h"
 
 namespace plumb {
@@ -16,16 +17,6 @@ namespace {
 
 constexpr int kNumCols = 12;
 constexpr double kNearFactor = 1.15;  // Nearer or farther than the usual distance by this.
-constexpr double kMinSlant_deg = 15.0;
-constexpr std::size_t kMinForDirection = 4;
-
-double TiltOf(const CalibrationPhoto& photo) {
-  std::vector<double> ratios;
-  for (const MarkerDetection& marker : photo.markers) {
-    ratios.push_back(marker.ellipse.semi_minor_px / marker.ellipse.semi_major_px);
-  }
-  return std::acos(std::clamp(MedianOf(ratios), 0.0, 1.0)) * 180.0 / M_PI;
-}
 
 double DiameterOf(const CalibrationPhoto& photo) {
   std::vector<double> diameters;
@@ -33,24 +24,6 @@ double DiameterOf(const CalibrationPhoto& photo) {
     diameters.push_back(2.0 * marker.ellipse.semi_major_px);
   }
   return MedianOf(diameters);
-}
-
-// In which direction of the image the markers grow, from a plane through their sizes; nothing with
-// too few markers or if they lie in a row.
-std::optional<Eigen::Vector2d> NearSide(const CalibrationPhoto& photo) {
-  const std::size_t count = photo.markers.size();
-  if (count < kMinForDirection) return std::nullopt;
-  Eigen::MatrixXd places(static_cast<Eigen::Index>(count), 3);
-  Eigen::VectorXd sizes(static_cast<Eigen::Index>(count));
-  for (std::size_t i = 0; i < count; ++i) {
-    const MarkerDetection& marker = photo.markers[i];
-    const auto row = static_cast<Eigen::Index>(i);
-    places.row(row) << marker.center_px.transpose() / photo.width_px, 1.0;
-    sizes(row) = std::log(marker.ellipse.semi_major_px * marker.ellipse.semi_minor_px);
-  }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(places);
-  if (solver.rank() < 3) return std::nullopt;
-  return Eigen::Vector2d(solver.solve(sizes).head<2>());
 }
 
 // Direction of a marker's x axis in the image.
@@ -87,16 +60,8 @@ class Measurer {
                      : kNumCols;
     const auto num_cells = static_cast<std::size_t>(coverage_.num_cols * coverage_.num_rows);
     coverage_.centers_in_cell.assign(num_cells, 0);
-    is_touched_.assign(num_cells, 0);
+    coverage_.is_cell_touched.assign(num_cells, 0);
     coverage_.distance = {{"nearer", 0, 2}, {"usual distance", 0, 2}, {"farther", 0, 2}};
-    coverage_.tilt = {{"0 to 15 deg", 0, 2},
-                      {"15 to 30 deg", 0, 2},
-                      {"30 to 45 deg", 0, 3},
-                      {"more than 45 deg", 0, 0}};
-    coverage_.direction = {{"near on the left", 0, 1},
-                           {"near on the right", 0, 1},
-                           {"near at the top", 0, 1},
-                           {"near at the bottom", 0, 1}};
     coverage_.turn = {{"upright or upside down", 0, 3}, {"turned by a quarter", 0, 2}};
     for (const CalibrationPhoto& photo : photos) {
       const bool is_usual = photo.width_px == width_px && photo.height_px == height_px;
@@ -112,15 +77,7 @@ class Measurer {
     ++coverage_.num_photos;
     for (const MarkerDetection& marker : photo.markers) AddToCells(marker);
     diameters_.push_back(DiameterOf(photo));
-    const double tilt_deg = TiltOf(photo);
-    const std::size_t bin = tilt_deg < 15.0 ? 0 : tilt_deg < 30.0 ? 1 : tilt_deg < 45.0 ? 2 : 3;
-    ++coverage_.tilt[bin].count;
-    const auto near_side = NearSide(photo);
-    if (near_side && tilt_deg >= kMinSlant_deg) {
-      const bool is_across = std::abs(near_side->x()) > std::abs(near_side->y());
-      const bool is_positive = (is_across ? near_side->x() : near_side->y()) > 0.0;
-      ++coverage_.direction[(is_across ? 0U : 2U) + (is_positive ? 1U : 0U)].count;
-    }
+    slants_.push_back(GuessSlant(photo));
     const bool is_turned = IsTurned(photo, angles_).value_or(false);
     ++coverage_.turn[is_turned ? 1 : 0].count;
     for (const MarkerDetection& marker : photo.markers) {
@@ -141,15 +98,19 @@ class Measurer {
         const Eigen::Vector2d nearest = center.cwiseMax(low).cwiseMin(high);
         const auto cell = static_cast<std::size_t>(row * coverage_.num_cols + col);
         if (nearest == center) ++coverage_.centers_in_cell[cell];
-        if ((circle_from_pixel * (nearest - center)).squaredNorm() <= 1.0) is_touched_[cell] = 1;
+        if ((circle_from_pixel * (nearest - center)).squaredNorm() <= 1.0) {
+          coverage_.is_cell_touched[cell] = 1;
+        }
       }
     }
   }
 
   void Finish() {
+    const std::vector<char>& is_touched = coverage_.is_cell_touched;
     coverage_.image_share =
-        static_cast<double>(std::count(is_touched_.begin(), is_touched_.end(), 1)) /
-        static_cast<double>(is_touched_.size());
+        static_cast<double>(std::count(is_touched.begin(), is_touched.end(), 1)) /
+        static_cast<double>(is_touched.size());
+    CountSlants(slants_, &coverage_);
     if (diameters_.empty()) return;
     const double usual_px = MedianOf(diameters_);
     for (const double diameter_px : diameters_) {
@@ -162,12 +123,22 @@ class Measurer {
   }
 
   CalibrationCoverage coverage_;
-  std::vector<char> is_touched_;   // Of each cell.
   std::vector<double> diameters_;  // Of each photo, in pixels.
+  std::vector<ViewSlant> slants_;  // Likewise.
   std::map<int, double> angles_;   // Of the markers seen so far.
 };
 
 }  // namespace
+
+bool IsEveryBarFull(const CalibrationCoverage& coverage) {
+  for (const auto* bars :
+       {&coverage.distance, &coverage.tilt, &coverage.direction, &coverage.turn}) {
+    for (const CoverageBar& bar : *bars) {
+      if (bar.count < bar.wanted) return false;
+    }
+  }
+  return true;
+}
 
 CalibrationCoverage MeasureCoverage(const std::vector<CalibrationPhoto>& photos) {
   return Measurer(photos).coverage();

@@ -36,11 +36,14 @@ Json ToJson(const CalibrationCoverage& coverage) {
           {"num_cols", coverage.num_cols},
           {"num_rows", coverage.num_rows},
           {"centers_in_cell", coverage.centers_in_cell},
+          {"is_cell_touched",
+           std::vector<bool>(coverage.is_cell_touched.begin(), coverage.is_cell_touched.end())},
           {"distance_ratio", coverage.distance_ratio},
           {"distance", ToJson(coverage.distance)},
           {"tilt", ToJson(coverage.tilt)},
           {"direction", ToJson(coverage.direction)},
-          {"turn", ToJson(coverage.turn)}};
+          {"turn", ToJson(coverage.turn)},
+          {"is_tilt_estimated", coverage.is_tilt_estimated}};
 }
 
 Json ToJson(const LensEstimate& estimate) {
@@ -65,6 +68,7 @@ Json PhotosJson(const CalibrationResult& result) {
   for (const CalibratedPhoto& photo : result.photos) {
     Json row = {{"name", photo.name},
                 {"is_used", photo.is_used},
+                {"num_found", photo.num_found},
                 {"num_markers", photo.num_markers},
                 {"num_wrong", photo.num_wrong}};
     if (photo.is_used) {
@@ -92,6 +96,14 @@ Json MarkersJson(const CalibrationResult& result) {
       row["rms_px"] = marker.rms_px;
     }
     list.push_back(row);
+  }
+  return list;
+}
+
+Json LeftOutJson(const CalibrationResult& result) {
+  Json list = Json::array();
+  for (const LeftOutMarker& marker : result.left_out) {
+    list.push_back({{"id", marker.id}, {"reason", marker.reason}});
   }
   return list;
 }
@@ -136,12 +148,13 @@ std::string Escaped(const std::string& name) {
 }
 
 void WritePhotos(const CalibrationResult& result, std::ostream* text) {
-  *text << "\n## Photos\n| photo | markers | left out | RMS px | tilt deg | distance "
+  *text << "\n## Photos\n| photo | markers found | left out | RMS px | tilt deg | distance "
         << (result.is_metric ? "m" : "marker diameters") << " |\n|---|---|---|---|---|---|\n";
   for (const CalibratedPhoto& photo : result.photos) {
-    *text << "| " << Escaped(photo.name) << " | " << photo.num_markers << " | ";
+    *text << "| " << Escaped(photo.name) << " | " << photo.num_found << " | ";
     if (photo.is_used) {
-      *text << photo.num_wrong << " | " << Number(photo.rms_px, 3) << " | "
+      const int num_counting = photo.num_markers - photo.num_wrong;
+      *text << photo.num_found - num_counting << " | " << Number(photo.rms_px, 3) << " | "
             << Number(photo.tilt_deg, 0) << " | " << Number(photo.distance, 2) << " |\n";
     } else {
       *text << "not used | | | |\n";
@@ -159,6 +172,11 @@ void WriteMarkers(const CalibrationResult& result, std::ostream* text) {
     } else {
       *text << "not used | | |\n";
     }
+  }
+  if (result.left_out.empty()) return;
+  *text << "\nFound but left out altogether:\n";
+  for (const LeftOutMarker& marker : result.left_out) {
+    *text << "- marker " << marker.id << ": " << Escaped(marker.reason) << '\n';
   }
 }
 
@@ -187,6 +205,7 @@ std::string ToJson(const CalibrationResult& result) {
                          {"coverage", ToJson(result.coverage)},
                          {"photos", PhotosJson(result)},
                          {"markers", MarkersJson(result)},
+                         {"left_out", LeftOutJson(result)},
                          {"residuals", ResidualsJson(result)}};
   return document.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
 }

@@ -12,6 +12,7 @@
 #include "calibration/diagnosis.h"
 #include "calibration/focal_search.h"
 #include "calibration/result_tables.h"
+#include "calibration/view_slant.h"
 #include "plumbline/common/options.h"
 
 namespace plumb {
@@ -79,6 +80,16 @@ CalibrationFinding NoLens() {
           {}};
 }
 
+// So that the bars tell the same tilts as the table of the photos.
+void CountEstimatedSlants(CalibrationResult* result) {
+  std::vector<ViewSlant> slants;
+  for (const CalibratedPhoto& photo : result->photos) {
+    if (photo.is_used) slants.push_back(SlantOf(photo.cam_from_plane.rotation));
+  }
+  CountSlants(slants, &result->coverage);
+  result->coverage.is_tilt_estimated = true;
+}
+
 void Fail(CalibrationFinding finding, CalibrationResult* result) {
   result->verdict = CalibrationVerdict::kFailed;
   for (CalibrationFinding& other : result->findings) other.is_serious = true;
@@ -97,6 +108,7 @@ CalibrationResult CalibrateCamera(const CalibrationOptions& options,
   result.coverage = MeasureCoverage(photos);
   const BoardIntake intake = TakeInBoard(options, photos);
   result.findings = intake.findings;
+  result.left_out = intake.left_out;
   FillNames(options, photos, intake, &result);
   if (intake.board.num_photos < kMinPhotos) {
     Fail(TooFewPhotos(intake), &result);
@@ -114,6 +126,7 @@ CalibrationResult CalibrateCamera(const CalibrationOptions& options,
     return result;
   }
   FillEstimate(options, photos, intake, *solution, camera_name, &result);
+  CountEstimatedSlants(&result);
   for (CalibrationFinding& finding : Diagnose(options, photos, intake, *solution, result)) {
     result.findings.push_back(std::move(finding));
   }

@@ -19,6 +19,10 @@ constexpr double kTitleText = 14.0;
 constexpr Color kInk{0.1, 0.3, 0.6};
 constexpr Color kWrong{0.85, 0.25, 0.1};
 constexpr Color kGrid{0.88, 0.88, 0.88};
+constexpr Color kText{0.15, 0.15, 0.15};
+constexpr Color kPaper{1.0, 1.0, 1.0};
+constexpr Color kNotNeeded{0.75, 0.75, 0.75};  // Of a bar that is not full, where all is good.
+constexpr double kManyCenters = 5.0;           // In a cell of the darkest colour.
 
 // 1, 2 or 5 times a power of ten, not above `value`.
 double RoundBelow(double value) {
@@ -54,6 +58,7 @@ struct PhotoFrame {
 // Returns the lower end.
 double DrawBars(const std::string& title,
                 const std::vector<CoverageBar>& bars,
+                bool is_good,
                 double x,
                 double y,
                 SvgCanvas* canvas) {
@@ -65,13 +70,35 @@ double DrawBars(const std::string& title,
     canvas->Text({x, y}, bar.label, kSmallText);
     const double left = x + 150.0;
     const double length = unit * std::min(bar.count, 8);
-    canvas->Rectangle({left, y - 9.0}, {length, 11.0}, HeatColor(is_full ? 0.75 : 0.4));
+    const Color color = is_full ? HeatColor(0.75) : is_good ? kNotNeeded : HeatColor(0.4);
+    canvas->Rectangle({left, y - 9.0}, {length, 11.0}, color);
     if (bar.wanted > 0) canvas->Frame({left, y - 9.0}, {unit * bar.wanted, 11.0});
     canvas->Text({left + std::max(length, unit * bar.wanted) + 6.0, y},
                  std::to_string(bar.count),
                  kSmallText);
   }
   return y + 26.0;
+}
+
+// How many marker centres lie in each cell; pale where only faces reach.
+void DrawCells(const CalibrationCoverage& coverage, const PhotoFrame& frame, SvgCanvas* canvas) {
+  const Eigen::Vector2d cell(frame.size.x() / coverage.num_cols,
+                             frame.size.y() / coverage.num_rows);
+  for (int row = 0; row < coverage.num_rows; ++row) {
+    for (int col = 0; col < coverage.num_cols; ++col) {
+      if (!coverage.IsCellTouched(col, row)) continue;
+      const int count = coverage.CentersInCell(col, row);
+      const Eigen::Vector2d corner = frame.corner + Eigen::Vector2d(col * cell.x(), row * cell.y());
+      const double share = count > 0 ? count / kManyCenters : 0.5 / kManyCenters;
+      canvas->Rectangle(corner, cell, HeatColor(share));
+      if (count == 0) continue;
+      canvas->Text(corner + 0.5 * cell + Eigen::Vector2d(0.0, 4.0),
+                   std::to_string(count),
+                   kSmallText - 1.0,
+                   0,
+                   share > 0.75 ? kPaper : kText);
+    }
+  }
 }
 
 }  // namespace
@@ -168,30 +195,28 @@ std::string DrawResiduals(const CalibrationResult& result) {
 std::string DrawCoverage(const CalibrationResult& result) {
   const CalibrationCoverage& coverage = result.coverage;
   const PhotoFrame frame(coverage.width_px, coverage.height_px);
-  const double below = frame.corner.y() + frame.size.y() + 34.0;
-  SvgCanvas canvas(kWidth, below + 210.0);
-  canvas.Text({kMargin, 36.0},
-              "Markers in the image: " + Number(100.0 * coverage.image_share, 0) + " % covered",
-              kTitleText);
-  const Eigen::Vector2d cell(frame.size.x() / std::max(1, coverage.num_cols),
-                             frame.size.y() / std::max(1, coverage.num_rows));
-  for (int row = 0; row < coverage.num_rows && coverage.num_photos > 0; ++row) {
-    for (int col = 0; col < coverage.num_cols; ++col) {
-      const int count = coverage.CentersInCell(col, row);
-      const Eigen::Vector2d corner = frame.corner + Eigen::Vector2d(col * cell.x(), row * cell.y());
-      canvas.Rectangle(corner, cell, HeatColor(count / 5.0));
-      canvas.Text(corner + 0.5 * cell + Eigen::Vector2d(0.0, 4.0),
-                  std::to_string(count),
-                  kSmallText - 1.0,
-                  0);
-    }
-  }
+  const double grid_end = frame.corner.y() + frame.size.y();
+  const double below = grid_end + 56.0;
+  SvgCanvas canvas(kWidth, below + 232.0);
+  canvas.Text(
+      {kMargin, 36.0},
+      "Markers touch " + Number(100.0 * coverage.image_share, 0) + " % of the image's cells",
+      kTitleText);
+  if (coverage.num_photos > 0) DrawCells(coverage, frame, &canvas);
   canvas.Frame(frame.corner, frame.size);
+  canvas.Text({kMargin, grid_end + 20.0},
+              "Numbers: marker centres. Pale, without a number: touched by a marker. White: not.",
+              kSmallText);
+  const bool is_good = result.verdict == CalibrationVerdict::kGood;
   const double right = 0.5 * kWidth + 14.0;
-  const double next = DrawBars("Tilt", coverage.tilt, kMargin, below, &canvas);
-  DrawBars("Turn", coverage.turn, kMargin, next, &canvas);
-  const double next_right = DrawBars("Slant", coverage.direction, right, below, &canvas);
-  DrawBars("Distance", coverage.distance, right, next_right, &canvas);
+  const std::string rough = coverage.is_tilt_estimated ? "" : " (rough)";
+  const double next = DrawBars("Tilt" + rough, coverage.tilt, is_good, kMargin, below, &canvas);
+  DrawBars("Turn", coverage.turn, is_good, kMargin, next, &canvas);
+  const double next_right =
+      DrawBars("Slant" + rough, coverage.direction, is_good, right, below, &canvas);
+  const double end = DrawBars("Distance", coverage.distance, is_good, right, next_right, &canvas);
+  if (is_good && !IsEveryBarFull(coverage))
+    canvas.Text({kMargin, end}, kNotFullButGood, kSmallText);
   return canvas.Finish();
 }
 
@@ -203,6 +228,13 @@ std::string DrawMarkers(const CalibrationResult& result) {
   Eigen::AlignedBox2d box;
   for (const CalibratedMarker& marker : result.markers) {
     if (marker.is_used) box.extend(Eigen::Vector2d(marker.center_in_plane.head<2>()));
+  }
+  if (!result.left_out.empty()) {
+    std::vector<int> ids;
+    for (const LeftOutMarker& marker : result.left_out) ids.push_back(marker.id);
+    canvas.Text({kMargin, kWidth - 14.0},
+                "Not drawn (the report says why): " + NameMarkers(ids),
+                kSmallText);
   }
   if (box.isEmpty()) return canvas.Finish();
   const double scale = (kWidth - 3.2 * kMargin) / std::max(1e-9, box.sizes().maxCoeff());

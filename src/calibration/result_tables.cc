@@ -212,6 +212,7 @@ void FillNames(const CalibrationOptions& options,
   for (const CalibrationPhoto& photo : photos) {
     result->photos.emplace_back();
     result->photos.back().name = photo.name;
+    result->photos.back().num_found = static_cast<int>(photo.markers.size());
   }
   for (const int id : intake.marker_ids) {
     result->markers.emplace_back();

@@ -83,8 +83,12 @@ void SvgCanvas::Circle(const Eigen::Vector2d& center,
   is_filled ? cairo_fill(cairo_.get()) : cairo_stroke(cairo_.get());
 }
 
-void SvgCanvas::Text(const Eigen::Vector2d& at, const std::string& text, double size, int align) {
-  SetColor({0.15, 0.15, 0.15});
+void SvgCanvas::Text(const Eigen::Vector2d& at,
+                     const std::string& text,
+                     double size,
+                     int align,
+                     const Color& color) {
+  SetColor(color);
   cairo_select_font_face(cairo_.get(), "sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(cairo_.get(), size);
   cairo_text_extents_t extents;

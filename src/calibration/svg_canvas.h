@@ -35,7 +35,11 @@ class SvgCanvas {
   void Circle(const Eigen::Vector2d& center, double radius, const Color& color, bool is_filled);
 
   // `at` is the text's base line: its left end (-1), middle (0) or right end (1).
-  void Text(const Eigen::Vector2d& at, const std::string& text, double size, int align = -1);
+  void Text(const Eigen::Vector2d& at,
+            const std::string& text,
+            double size,
+            int align = -1,
+            const Color& color = {0.15, 0.15, 0.15});
 
   // The whole file. Throws std::runtime_error if Cairo failed. Nothing may be drawn after it.
   std::string Finish();

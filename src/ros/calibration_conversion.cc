@@ -62,8 +62,8 @@ Msg ToCalibrationProgressMsg(const CalibratorState& state) {
   for (const SourceNote& source : state.sources) {
     if (source.is_trouble) msg.source_troubles.push_back(source.text);
   }
-  FillCoverage(state.progress.coverage, &msg);
   const ShownEstimate shown = EstimateToShow(state);
+  FillCoverage(*shown.coverage, &msg);
   msg.has_estimate = shown.estimate != nullptr;
   if (shown.estimate != nullptr) {
     msg.estimate = ToCameraInfoMsg(shown.estimate->camera);

@@ -138,8 +138,7 @@ Outcome CalibratorRos::Commit() {
     const std::string service = SetCameraInfoService();
     if (service.empty()) {
       return {Outcome::Kind::kFailed,
-              "There is no camera to send it to: no image came from a driver. Save it, or name the "
-              "driver's service in set_camera_info_service."};
+              "There is no camera to send it to: no image came from a driver. " + HowElse()};
     }
     return SendTo(service, camera);
   });
@@ -156,12 +155,19 @@ std::string CalibratorRos::SetCameraInfoService() const {
   return SetCameraInfoServiceOf(image_topic_);
 }
 
+std::string CalibratorRos::HowElse() const {
+  return (calibrator_.state().is_saved
+              ? "It is saved in " + options_.output_folder + "/camera.yaml all the same"
+              : std::string("Press Save to have it as a file")) +
+         "; a driver's service of another name is told at the start: set_camera_info:=NAME "
+         "(parameter set_camera_info_service).";
+}
+
 Outcome CalibratorRos::SendTo(const std::string& service, const Camera& camera) const {
   if (!ros::service::exists(service, /*print_failure_reason=*/false)) {
     return {Outcome::Kind::kFailed,
             "There is no service " + service +
-                ": the camera's driver does not run or keeps no calibration. Save it instead, or "
-                "name the service in set_camera_info_service."};
+                ": the camera's driver does not run or keeps no calibration. " + HowElse()};
   }
   sensor_msgs::SetCameraInfo call;
   call.request.camera_info = ToCameraInfoMsg(camera);
@@ -245,7 +251,7 @@ SourceNote CalibratorRos::FolderNote() const {
           false};
 }
 
-SourceNote CalibratorRos::TopicNote() const {
+SourceNote CalibratorRos::TopicNote(bool is_enough) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!topic_trouble_.empty()) return {topic_trouble_, true};
   const bool is_silent = SteadySeconds() - last_image_s_ > kSilence_s;
@@ -254,7 +260,9 @@ SourceNote CalibratorRos::TopicNote() const {
                 (is_silent ? ". Start the camera or the bag, or correct image_topic" : ""),
             is_silent};
   }
-  return {image_topic_ + (is_silent ? ": the images have stopped" : ": images come in"), is_silent};
+  if (!is_silent) return {image_topic_ + ": images come in", false};
+  if (is_enough) return {image_topic_ + ": no more images, none are needed", false};
+  return {image_topic_ + ": the images have stopped", true};
 }
 
 // The topic that a folder's photos are accompanied by may never be meant.
@@ -266,7 +274,7 @@ bool CalibratorRos::IsTopicShown() const {
 void CalibratorRos::OnTimer() {
   std::vector<SourceNote> sources;
   if (!options_.photos_folder.empty()) sources.push_back(FolderNote());
-  if (IsTopicShown()) sources.push_back(TopicNote());
+  if (IsTopicShown()) sources.push_back(TopicNote(IsEnough(calibrator_.state())));
   calibrator_.NoteSources(std::move(sources), !SetCameraInfoService().empty());
   diagnostics_.update();
   const CalibratorState state = calibrator_.state();

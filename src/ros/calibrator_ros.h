@@ -51,6 +51,7 @@ class CalibratorRos {
   using Trigger = std_srvs::Trigger;
 
   Outcome Commit();
+  std::string HowElse() const;  // Than by Commit.
   Outcome SendTo(const std::string& service, const Camera& camera) const;
   std::string SetCameraInfoService() const;
   void Advertise();
@@ -63,7 +64,7 @@ class CalibratorRos {
   void OnImage(const topic_tools::ShapeShifter::ConstPtr& msg);
   void OnTimer();
   SourceNote FolderNote() const;
-  SourceNote TopicNote() const;
+  SourceNote TopicNote(bool is_enough) const;  // Silence is no trouble once it is enough.
   bool IsTopicShown() const;
   void Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 

@@ -18,9 +18,14 @@ ShownEstimate EstimateToShow(const CalibratorState& state) {
                          source.rms_px,
                          source.verdict,
                          &source.advice,
-                         &source.findings};
+                         &source.findings,
+                         &source.coverage};
   };
   return state.result && state.is_result_current ? show(*state.result) : show(state.progress);
+}
+
+bool IsEnough(const CalibratorState& state) {
+  return EstimateToShow(state).verdict == CalibrationVerdict::kGood;
 }
 
 bool CanCalibrate(const CalibratorState& state) {

@@ -72,8 +72,12 @@ struct ShownEstimate {
   CalibrationVerdict verdict = CalibrationVerdict::kFailed;
   const std::string* advice = nullptr;
   const std::vector<CalibrationFinding>* findings = nullptr;
+  const CalibrationCoverage* coverage = nullptr;
 };
 ShownEstimate EstimateToShow(const CalibratorState& state);
+
+// Whether the photos taken are good enough, so that a source may well end.
+bool IsEnough(const CalibratorState& state);
 
 // Whether each of the three steps makes sense now.
 bool CanCalibrate(const CalibratorState& state);

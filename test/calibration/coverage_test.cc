@@ -5,6 +5,7 @@
 
 #include <numeric>
 
+#include "calibration/view_slant.h"
 #include "plumbline/calibration/calibration_coverage.h"
 #include "test/support/calibration_scene.h"
 
@@ -71,6 +72,42 @@ TEST(MeasureCoverage, TellsTiltDirectionTurnAndDistance) {
   const std::vector<int> direction = Counts(coverage.direction);
   EXPECT_EQ(direction[0] + direction[1], 1);
   EXPECT_EQ(direction[2] + direction[3], 1);
+}
+
+// The camera of the scene is of 0.68 widths; the guess is for 0.7.
+TEST(MeasureCoverage, GuessesTiltsAwayFromTheMiddleOfTheImage) {
+  std::vector<CalibrationPhoto> photos;
+  for (const double tilt_deg : {5.0, 19.0, 27.0, 35.0, 42.0}) {
+    Rigid3 cam_from_plane = Pose(14.0, 0, tilt_deg * M_PI / 180.0, 0.7);
+    cam_from_plane.translation.x() += 3.0;
+    cam_from_plane.translation.y() -= 2.0;
+    photos.push_back(Photo(cam_from_plane, std::to_string(tilt_deg)));
+  }
+  EXPECT_THAT(Counts(MeasureCoverage(photos).tilt), testing::ElementsAre(1, 2, 2, 0));
+}
+
+TEST(MeasureCoverage, CountsTiltsInWholeDegreesOnce) {
+  const auto slant = [](double tilt_deg) { return ViewSlant{tilt_deg, {1.0, 0.0}}; };
+  CalibrationCoverage coverage;
+  for (int i = 0; i < 2; ++i) {  // The second time in the place of the first.
+    CountSlants({slant(14.4), slant(14.6), slant(29.4), slant(45.4), slant(45.6)}, &coverage);
+    EXPECT_THAT(Counts(coverage.tilt), testing::ElementsAre(1, 2, 1, 1));
+    EXPECT_THAT(Counts(coverage.direction), testing::ElementsAre(0, 4, 0, 0));
+  }
+}
+
+TEST(MeasureCoverage, ACellWithACentreIsTouched) {
+  const CalibrationCoverage coverage = MeasureCoverage({Photo(Pose(14.0, 0, 0.3, 0.0), "a")});
+  int num_touched = 0;
+  for (int row = 0; row < coverage.num_rows; ++row) {
+    for (int col = 0; col < coverage.num_cols; ++col) {
+      num_touched += coverage.IsCellTouched(col, row) ? 1 : 0;
+      EXPECT_TRUE(coverage.CentersInCell(col, row) == 0 || coverage.IsCellTouched(col, row));
+    }
+  }
+  EXPECT_NEAR(coverage.image_share,
+              num_touched / static_cast<double>(coverage.num_cols * coverage.num_rows),
+              1e-9);
 }
 
 // The nearer side is the one whose markers are larger.

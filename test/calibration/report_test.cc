@@ -50,6 +50,43 @@ TEST(WriteCalibrationReport, HoldsAllThatWasFound) {
   fs::remove_all(folder.parent_path());
 }
 
+TEST(WriteCalibrationReport, BarsAndTableTellTheSameTilts) {
+  const CalibrationResult result =
+      CalibrateCamera(test::QuickOptions(), test::MakeCalibrationPhotos());
+  ASSERT_TRUE(result.estimate);
+  std::vector<int> counts(4, 0);
+  for (const CalibratedPhoto& photo : result.photos) {
+    const long tilt_deg = std::lround(photo.tilt_deg);  // As the table shows it.
+    if (photo.is_used) ++counts[tilt_deg < 15 ? 0 : tilt_deg < 30 ? 1 : tilt_deg <= 45 ? 2 : 3];
+  }
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    EXPECT_EQ(result.coverage.tilt[i].count, counts[i]) << result.coverage.tilt[i].label;
+  }
+  EXPECT_TRUE(result.coverage.is_tilt_estimated);
+}
+
+TEST(WriteCalibrationReport, NamesMarkersThatAreLeftOut) {
+  std::vector<CalibrationPhoto> photos = test::MakeCalibrationPhotos();
+  const int id = photos[0].markers.front().id;
+  for (std::size_t i = 1; i < photos.size(); ++i) {
+    std::vector<MarkerDetection>& markers = photos[i].markers;
+    markers.erase(std::remove_if(markers.begin(),
+                                 markers.end(),
+                                 [id](const MarkerDetection& marker) { return marker.id == id; }),
+                  markers.end());
+  }
+  const CalibrationResult result = CalibrateCamera(test::QuickOptions(), photos);
+  ASSERT_TRUE(result.estimate);
+  EXPECT_EQ(result.photos[0].num_found, result.photos[0].num_markers + 1);
+  ASSERT_EQ(result.left_out.size(), 1U);
+  EXPECT_EQ(result.left_out[0].id, id);
+  EXPECT_THAT(
+      ToMarkdown(result),
+      HasSubstr("- marker " + std::to_string(id) + ": in one photo only, " + photos[0].name));
+  EXPECT_THAT(ToMarkdown(result),
+              HasSubstr("| " + std::to_string(photos[0].markers.size()) + " | 1 |"));
+}
+
 TEST(WriteCalibrationReport, IsThereForAFailureToo) {
   const fs::path folder = fs::path(testing::TempDir()) / "calibration_report_test_failed";
   fs::remove_all(folder);

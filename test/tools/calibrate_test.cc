@@ -97,5 +97,22 @@ TEST_F(CalibrateTest, NamesAFolderThatIsNotThere) {
   EXPECT_THROW(Run(arguments), std::runtime_error);
 }
 
+TEST_F(CalibrateTest, NamesAMissingFolderOfTheOutputBeforeItLooksForMarkers) {
+  fs::create_directories(Path("photos"));
+  WriteFileAtomically(Path("photos/broken.jpg"), std::string("no photo"));
+  CalibrateArguments arguments;
+  arguments.photos = Path("photos");
+  for (const char* output : {"no folder/camera.yaml", "photos"}) {
+    arguments.output = Path(output);
+    try {
+      Run(arguments);
+      FAIL() << output;
+    } catch (const std::runtime_error& error) {
+      EXPECT_THAT(error.what(), HasSubstr(arguments.output));
+    }
+  }
+  EXPECT_EQ(log_.str(), "");
+}
+
 }  // namespace
 }  // namespace plumb::tools

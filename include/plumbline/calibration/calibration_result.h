@@ -41,8 +41,9 @@ struct LensEstimate {
 struct CalibratedPhoto {
   std::string name;
   bool is_used = false;
-  Rigid3 cam_from_plane;  // Only if used, as what follows.
-  int num_markers = 0;    // That it shows and others show too; also if not used, as num_wrong.
+  Rigid3 cam_from_plane;  // Only if used, as what has no other word.
+  int num_found = 0;      // Markers found in it; also if not used, as the two that follow.
+  int num_markers = 0;    // Of them, that others show too.
   int num_wrong = 0;      // Of them, that do not count: they do not fit, or their marker does not.
   double rms_px = 0.0;    // Of those that are not wrong.
   double tilt_deg = 0.0;  // Between the plane's normal and the optical axis.
@@ -58,6 +59,12 @@ struct CalibratedMarker {
   int num_photos = 0;
   int num_wrong = 0;
   double rms_px = 0.0;  // Of those that are not wrong.
+};
+
+// A marker that was found but is not among CalibrationResult::markers.
+struct LeftOutMarker {
+  int id = -1;
+  std::string reason;  // "in one photo only, 0001.jpg".
 };
 
 struct CalibrationResidual {
@@ -119,6 +126,7 @@ struct CalibrationResult {
   CalibrationCoverage coverage;
   std::vector<CalibratedPhoto> photos;    // As given.
   std::vector<CalibratedMarker> markers;  // By ID.
+  std::vector<LeftOutMarker> left_out;    // By ID.
   std::vector<CalibrationResidual> residuals;
 };
 

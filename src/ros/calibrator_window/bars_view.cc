@@ -14,7 +14,8 @@ constexpr int kNumColumns = 2;
 
 bool IsFull(const CoverageBar& bar) { return bar.count >= bar.wanted; }
 
-void PaintBar(const CoverageBar& bar, const QRect& area, QPainter* painter) {
+// What is not wanted has a number and no bar.
+void PaintBar(const CoverageBar& bar, bool is_good, const QRect& area, QPainter* painter) {
   const int label_px = 63 * area.width() / 100;
   const QRect label = area.adjusted(0, 0, label_px - area.width(), 0);
   const int inset_px = std::max(2, area.height() / 7);
@@ -24,11 +25,15 @@ void PaintBar(const CoverageBar& bar, const QRect& area, QPainter* painter) {
                     Qt::AlignLeft | Qt::AlignVCenter,
                     painter->fontMetrics().elidedText(
                         QString::fromStdString(bar.label), Qt::ElideRight, label.width()));
+  if (bar.wanted == 0) {
+    painter->drawText(frame, Qt::AlignCenter, QString::number(bar.count));
+    return;
+  }
   const double share = std::min(1.0, static_cast<double>(bar.count) / bar.wanted);
   painter->fillRect(frame, kPaper);
   QRect filled = frame;
   filled.setWidth(static_cast<int>(share * frame.width()));
-  painter->fillRect(filled, IsFull(bar) ? kGoodColor : kDoubtfulColor);
+  painter->fillRect(filled, IsFull(bar) ? kGoodColor : is_good ? kSeenColor : kDoubtfulColor);
   painter->setPen(kInk);
   painter->drawRect(frame);
   painter->setPen(IsFull(bar) ? kPaper : kInk);
@@ -47,15 +52,19 @@ BarsView::BarsView(QWidget* parent) : QWidget(parent) {
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
 }
 
-// What is not wanted has no bar.
-void BarsView::Show(const CalibrationCoverage& coverage) {
+void BarsView::Show(const CalibrationCoverage& coverage, bool is_good) {
+  is_good_ = is_good;
+  note_ = is_good && !IsEveryBarFull(coverage) ? QString(kNotFullButGood) : QString();
+  const QString rough = coverage.is_tilt_estimated || coverage.num_photos == 0 ? "" : " (rough)";
   groups_ = {{"Distance", coverage.distance},
-             {"Tilt", coverage.tilt},
-             {"Direction", coverage.direction},
+             {"Tilt" + rough, coverage.tilt},
+             {"Direction" + rough, coverage.direction},
              {"Camera turned", coverage.turn}};
   for (Group& group : groups_) {
-    const auto is_wanted = [](const CoverageBar& bar) { return bar.wanted > 0; };
-    group.bars.erase(std::stable_partition(group.bars.begin(), group.bars.end(), is_wanted),
+    const auto says_nothing = [](const CoverageBar& bar) {
+      return bar.wanted == 0 && bar.count == 0;
+    };
+    group.bars.erase(std::remove_if(group.bars.begin(), group.bars.end(), says_nothing),
                      group.bars.end());
   }
   update();
@@ -74,6 +83,7 @@ void BarsView::paintEvent(QPaintEvent*) {
     num_rows += tallest + 1;
   }
   const int between_px = LetterHeight_px(*this) / 2;  // Two rows of groups.
+  if (!note_.isEmpty()) ++num_rows;
   const int row_px = (height() - between_px) / static_cast<int>(std::max<std::size_t>(num_rows, 1));
   const int gap_px = LetterHeight_px(*this);
   const int column_px = (width() - gap_px) / kNumColumns;
@@ -88,12 +98,14 @@ void BarsView::paintEvent(QPaintEvent*) {
       painter.setFont(FontOf(*this, 0.8));
       for (const CoverageBar& bar : groups_[k].bars) {
         area.translate(0, row_px);
-        PaintBar(bar, area, &painter);
+        PaintBar(bar, is_good_, area, &painter);
       }
       bottom_px = std::max(bottom_px, area.bottom() + 1);
     }
     top_px = bottom_px + between_px;
   }
+  painter.setPen(kInk);
+  painter.drawText(QRect(0, height() - row_px, width(), row_px), Qt::AlignVCenter, note_);
 }
 
 }  // namespace plumb::ros_adapter

@@ -10,12 +10,13 @@
 namespace plumb::ros_adapter {
 
 // Distance, tilt, direction and turn as bars: how many photos there are of how many wanted.
-// Green and ticked where there are enough.
+// Green and ticked where there are enough; grey with a note instead of orange where there are not
+// and the verdict is good all the same.
 class BarsView : public QWidget {
  public:
   explicit BarsView(QWidget* parent = nullptr);
 
-  void Show(const CalibrationCoverage& coverage);
+  void Show(const CalibrationCoverage& coverage, bool is_good);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -27,6 +28,8 @@ class BarsView : public QWidget {
   };
 
   std::vector<Group> groups_;
+  bool is_good_ = false;
+  QString note_;  // Under the bars; empty: none.
 };
 
 }  // namespace plumb::ros_adapter

@@ -19,7 +19,8 @@ namespace plumb::ros_adapter {
 namespace {
 
 constexpr int kRefresh_ms = 100;
-constexpr int kMaxFindings = 2;  // More would leave no room for the photo.
+constexpr const char* kCommitted = "Committed ✓";  // The longest word on a button.
+constexpr int kMaxFindings = 2;                    // More would leave no room for the photo.
 
 void Paint(QWidget* widget, const QColor& ground, const QColor& ink, const QString& more = {}) {
   const QString style =
@@ -51,12 +52,14 @@ bool IsSaidByAdvice(const CalibrationFinding& finding, const std::string& advice
   return finding.kind == CalibrationFinding::Kind::kTooFewPhotos || finding.text == advice;
 }
 
-// What to press once the photos are good enough.
+// What to press once the photos are good enough. To commit is up to the pilot.
 std::string NextStep(const CalibratorState& state) {
-  if (EstimateToShow(state).verdict != CalibrationVerdict::kGood) return {};
+  if (!IsEnough(state)) return {};
   if (!state.is_result_current) return " Press Calibrate.";
   if (!state.is_saved) return " Press Save.";
-  return {};
+  if (state.is_committed) return " Done: saved, and the camera has it.";
+  if (!CanCommit(state)) return " Done: saved.";
+  return " Done: saved. Commit gives it to the camera's driver too.";
 }
 
 // A button that does nothing now is flat and grey; the next step is filled.
@@ -144,9 +147,10 @@ void CalibratorWindow::Refresh() {
     idle += "\n\n" + QString::fromStdString(source.text);
   }
   photo_->Show(state.view, idle);
-  coverage_->Show(state.progress.coverage);
-  bars_->Show(state.progress.coverage);
-  estimate_->Show(EstimateToShow(state));
+  const ShownEstimate shown = EstimateToShow(state);
+  coverage_->Show(*shown.coverage);
+  bars_->Show(*shown.coverage, IsEnough(state));
+  estimate_->Show(shown);
   ShowSources(state);
   ShowButtons(state);
   ShowOutcome(state);
@@ -197,13 +201,12 @@ void CalibratorWindow::ShowOutcome(const CalibratorState& state) {
 }
 
 void CalibratorWindow::ShowButtons(const CalibratorState& state) {
-  const bool is_good = EstimateToShow(state).verdict == CalibrationVerdict::kGood;
+  const bool is_good = IsEnough(state);
   calibrate_->setEnabled(CanCalibrate(state));
   save_->setEnabled(CanSave(state));
   commit_->setEnabled(CanCommit(state));
   save_->setText(state.result && state.is_saved ? QString::fromUtf8("Saved ✓") : "Save");
-  commit_->setText(state.result && state.is_committed ? QString::fromUtf8("Committed ✓")
-                                                      : "Commit");
+  commit_->setText(state.result && state.is_committed ? QString::fromUtf8(kCommitted) : "Commit");
   PaintButton(calibrate_, is_good && !state.is_result_current);
   PaintButton(save_, is_good && state.is_result_current && !state.is_saved);
   PaintButton(commit_, is_good && state.is_result_current && state.is_saved);
@@ -221,7 +224,9 @@ void CalibratorWindow::ScaleLetters() {
   outcome_->setFont(FontOf(*this, 1.0, /*is_bold=*/true));
   for (QPushButton* button : {calibrate_, save_, commit_}) {
     button->setFont(FontOf(*this, 1.3, /*is_bold=*/true));
-    button->setMinimumSize(8 * LetterHeight_px(*this), 7 * LetterHeight_px(*this) / 2);
+    const int word_px = button->fontMetrics().horizontalAdvance(QString::fromUtf8(kCommitted)) +
+                        2 * LetterHeight_px(*this);
+    button->setMinimumSize(word_px, 7 * LetterHeight_px(*this) / 2);
   }
 }
 

@@ -13,8 +13,10 @@ namespace {
 // So many centres in a cell are shown in the darkest colour.
 constexpr int kManyCenters = 6;
 
-QColor ColorOf(int count) {
-  if (count == 0) return kPaper;
+const QColor kTouchedColor(222, 243, 225);
+
+QColor ColorOf(int count, bool is_touched) {
+  if (count == 0) return is_touched ? kTouchedColor : kPaper;
   const double share = std::min(1.0, static_cast<double>(count) / kManyCenters);
   const auto mix = [share](int pale, int dark) {
     return static_cast<int>(std::lround(pale + share * (dark - pale)));
@@ -39,10 +41,10 @@ void CoverageView::paintEvent(QPaintEvent*) {
   const int title_px = 3 * LetterHeight_px(*this) / 2;
   painter.setPen(kInk);
   painter.setFont(FontOf(*this, 1.0, /*is_bold=*/true));
-  painter.drawText(
-      QRect(5 * title_px / 6, 0, width(), title_px),
-      Qt::AlignLeft | Qt::AlignVCenter,
-      QString("Image area: %1 % covered").arg(std::lround(100.0 * coverage_.image_share)));
+  painter.drawText(QRect(5 * title_px / 6, 0, width(), title_px),
+                   Qt::AlignLeft | Qt::AlignVCenter,
+                   QString("Touched: %1 % of the image. Numbers: centres")
+                       .arg(std::lround(100.0 * coverage_.image_share)));
   painter.setRenderHint(QPainter::Antialiasing);
   painter.setPen(QPen(kInk, 1.5));
   painter.setBrush(coverage_.image_share >= kWantedImageShare ? kGoodColor : kDoubtfulColor);
@@ -64,7 +66,7 @@ void CoverageView::paintEvent(QPaintEvent*) {
         const int count = coverage_.CentersInCell(col, row);
         const QRectF area(
             QPointF(target.x() + col * cell.width(), target.y() + row * cell.height()), cell);
-        painter.fillRect(area, ColorOf(count));
+        painter.fillRect(area, ColorOf(count, coverage_.IsCellTouched(col, row)));
         painter.setPen(kLine);
         painter.drawRect(area);
         if (count == 0 || !has_numbers) continue;

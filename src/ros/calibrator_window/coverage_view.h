@@ -8,8 +8,8 @@
 
 namespace plumb::ros_adapter {
 
-// Heat map over the image area: white where no marker was seen yet, the darker the more; each
-// cell with its number of marker centres.
+// Heat map over the image area: white where no marker was seen yet, pale where only a marker's face
+// reached, the darker the more centres; their number is in the cell.
 class CoverageView : public QWidget {
  public:
   explicit CoverageView(QWidget* parent = nullptr);

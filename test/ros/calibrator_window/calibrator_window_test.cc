@@ -10,6 +10,7 @@
 #include <QPushButton>
 #include <QtTest>
 
+#include "ros/calibrator_window/bars_view.h"
 #include "ros/calibrator_window/estimate_view.h"
 #include "ros/calibrator_window/photo_view.h"
 #include "ros/calibrator_window/window_style.h"
@@ -80,6 +81,33 @@ TEST_F(CalibratorWindowTest, EachStepOpensTheNext) {
   Show(state);
   EXPECT_EQ(Enabled(), "");
   EXPECT_EQ(std::tie(num_calibrate_, num_save_, num_commit_), std::make_tuple(1, 1, 1));
+}
+
+TEST_F(CalibratorWindowTest, SaysWhenItIsDone) {
+  CalibratorState state = CalibratedState();
+  Show(state);
+  EXPECT_THAT(Text("advice"), ::testing::HasSubstr("Press Save."));
+  state.is_saved = true;
+  Show(state);
+  EXPECT_THAT(Text("advice"), ::testing::HasSubstr("Done: saved. Commit"));
+  state.is_committed = true;
+  Show(state);
+  EXPECT_THAT(Text("advice"), ::testing::HasSubstr("Done: saved, and the camera has it."));
+  state.is_committed = state.has_driver = false;
+  Show(state);
+  EXPECT_THAT(Text("advice"), ::testing::EndsWith("Done: saved."));
+}
+
+TEST_F(CalibratorWindowTest, ALongWordDoesNotTouchTheButtonsRim) {
+  CalibratorState state = CalibratedState();
+  state.is_saved = state.is_committed = true;
+  window_.resize(1024, 600);
+  window_.show();
+  Show(state);
+  QTest::qWait(1);
+  QPushButton* button = Button("commit");
+  EXPECT_GE(button->width(),
+            button->fontMetrics().horizontalAdvance(button->text()) + LetterHeight_px(window_));
 }
 
 TEST_F(CalibratorWindowTest, APhotoAfterTheCalibrationOffersToCalibrateAgain) {
@@ -250,6 +278,26 @@ TEST(PhotoView, AnUnreadablePhotoIsAWord) {
   widget.resize(600, 400);
   widget.Show(std::make_shared<const CalibratorView>(view), "");
   EXPECT_GT(CountColor(widget.grab().toImage(), kBadColor), 100);
+}
+
+// A bar that is not full is orange until the verdict is good.
+TEST(BarsView, AGoodVerdictLeavesNoBarOrange) {
+  CalibrationCoverage coverage = MeasureCoverage(test::MakeCalibrationPhotos());
+  coverage.tilt[0].count = 1;
+  BarsView bars;
+  bars.resize(500, 300);
+  bars.Show(coverage, /*is_good=*/false);
+  EXPECT_GT(CountColor(bars.grab().toImage(), kDoubtfulColor), 100);
+  bars.Show(coverage, /*is_good=*/true);
+  const QImage good = bars.grab().toImage();
+  EXPECT_EQ(CountColor(good, kDoubtfulColor), 0);
+  EXPECT_GT(CountColor(good, kSeenColor), 100);
+}
+
+TEST(IsEnough, OnlyAGoodVerdictLetsTheImagesEnd) {
+  EXPECT_FALSE(IsEnough(StateAfter(0)));
+  EXPECT_FALSE(IsEnough(StateAfter(6)));
+  EXPECT_TRUE(IsEnough(CalibratedState()));
 }
 
 TEST(EstimateRows, ALampForEachCriterion) {
