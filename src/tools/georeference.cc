@@ -222,12 +222,12 @@ void CheckIsUsable(const GeoreferenceArguments& arguments, const Georeference& g
 }
 
 // Before the work is done that is to be written.
-void PrepareFolder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (!error && access(folder.c_str(), W_OK) != 0) error = {errno, std::generic_category()};
-  if (!error) return;
-  throw std::runtime_error(folder + ": cannot be written to: " + error.message() +
+void CheckIsWritable(const std::string& session) {
+  const std::string exports = std::filesystem::path(GeoreferencePath(session)).parent_path();
+  const std::string& folder = std::filesystem::exists(exports) ? exports : session;
+  if (access(folder.c_str(), W_OK) == 0) return;
+  throw std::runtime_error(folder +
+                           ": cannot be written to: " + std::generic_category().message(errno) +
                            "; copy the session to where it can be");
 }
 
@@ -239,6 +239,7 @@ void WriteFiles(const GeoreferenceArguments& arguments,
                 const SessionGeoreference& result,
                 Console* console) {
   const std::string path = GeoreferencePath(arguments.session);
+  std::filesystem::create_directories(std::filesystem::path(path).parent_path());
   nlohmann::ordered_json json = ToJson(result.georeference);
   json["refined"] = arguments.refine;
   WriteFileAtomically(path,
@@ -281,7 +282,7 @@ SessionGeoreference GeoreferenceSession(const GeoreferenceArguments& arguments,
 void WriteSessionGeoreference(const GeoreferenceArguments& arguments, Console* console) {
   const Settings settings = ReadSettings(arguments.settings);
   std::optional<SessionStore> store = SessionStore::OpenExisting(arguments.session);
-  PrepareFolder(std::filesystem::path(GeoreferencePath(arguments.session)).parent_path());
+  CheckIsWritable(arguments.session);
   const bool had_refinement = store->HasRefinement();
   if (arguments.refine || had_refinement) {  // They are to be written.
     store.emplace(SessionStore(arguments.session, store->camera()));

@@ -172,7 +172,7 @@ TEST(DrawRefused, PutsThePhotoBetweenThoseBeforeAndAfter) {
   EXPECT_NEAR(crosses.points[2].x, 0.0, 1e-9);
   EXPECT_NEAR(crosses.points[8].x, 1.0, 1e-9);
   EXPECT_NEAR(crosses.points[14].x, 4.0, 1e-9);
-  EXPECT_EQ(array.markers[2].text, "b.jpg: no_overlap");
+  EXPECT_EQ(array.markers[2].text, "b.jpg: no overlap");
   EXPECT_EQ(DrawRefused({{PhotoId{1}, {}}}, {}, MakeHeader()).markers.size(), 1U);
 }
 
