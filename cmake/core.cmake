@@ -63,7 +63,7 @@ set_source_files_properties(src/simulation/develop.cc PROPERTIES COMPILE_OPTIONS
 file(GLOB shade_kernels CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/simulation/shade_kernel*.cc)
 set_source_files_properties(${shade_kernels} PROPERTIES COMPILE_OPTIONS -ffp-contract=off)
 plumb_module(export plumb_sfm plumb_surface)
-plumb_module(evaluation plumb_export)
+plumb_module(evaluation plumb_export embree)
 target_link_libraries(plumb_evaluation PRIVATE CGAL::CGAL)
 target_include_directories(plumb_evaluation SYSTEM PRIVATE ${NANOFLANN_INCLUDE_DIR})
 

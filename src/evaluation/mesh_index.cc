@@ -6,8 +6,11 @@
 #include <CGAL/Simple_cartesian.h>
 
 #include <cmath>
+#include <memory>
+#include <new>
 #include <stdexcept>
 
+#include "common/embree_handle.h"
 #include "plumbline/evaluation/nearest.h"
 
 namespace plumb {
@@ -17,6 +20,61 @@ using Kernel = CGAL::Simple_cartesian<double>;
 using Triangles = std::vector<Kernel::Triangle_3>;
 using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+
+// Embree: with the tree of CGAL, evaluating a flight took ten times as long. In float: to a
+// hundredth of a millimetre within 100 m.
+class Obstacles {
+ public:
+  explicit Obstacles(const Triangles& triangles)
+      : device_(rtcNewDevice("set_affinity=0")), scene_(rtcNewScene(device_.get())) {
+    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry,
+                                                                 RTC_BUFFER_TYPE_VERTEX,
+                                                                 0,
+                                                                 RTC_FORMAT_FLOAT3,
+                                                                 3 * sizeof(float),
+                                                                 3 * triangles.size()));
+    auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry,
+                                                                   RTC_BUFFER_TYPE_INDEX,
+                                                                   0,
+                                                                   RTC_FORMAT_UINT3,
+                                                                   3 * sizeof(unsigned),
+                                                                   triangles.size()));
+    if (vertices == nullptr || indices == nullptr) throw std::bad_alloc();
+    for (unsigned corner = 0; corner < 3 * triangles.size(); ++corner) {
+      const Kernel::Point_3 point = triangles[corner / 3].vertex(static_cast<int>(corner % 3));
+      for (int axis = 0; axis < 3; ++axis) *vertices++ = static_cast<float>(point[axis]);
+      *indices++ = corner;
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene_.get(), geometry);
+    rtcReleaseGeometry(geometry);
+    rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcCommitScene(scene_.get());
+  }
+
+  bool AreBetween(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
+    const Eigen::Vector3f origin = from.cast<float>();
+    const Eigen::Vector3f way = (to - from).cast<float>();
+    RTCRay ray{};
+    ray.org_x = origin.x();
+    ray.org_y = origin.y();
+    ray.org_z = origin.z();
+    ray.dir_x = way.x();
+    ray.dir_y = way.y();
+    ray.dir_z = way.z();
+    ray.tfar = 1.0F;
+    ray.mask = ~0U;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(scene_.get(), &context, &ray);
+    return ray.tfar < 0.0F;
+  }
+
+ private:
+  internal::EmbreeDevice device_;
+  internal::EmbreeScene scene_;
+};
 
 Kernel::Point_3 ToCgal(const Eigen::Vector3d& point) { return {point.x(), point.y(), point.z()}; }
 
@@ -37,6 +95,7 @@ class MeshIndex::Impl {
     tree_.insert(triangles_.cbegin(), triangles_.cend());
     tree_.build();
     tree_.accelerate_distance_queries();
+    obstacles_ = std::make_unique<const Obstacles>(triangles_);
   }
 
   NearestOnMesh NearestTo(const Eigen::Vector3d& point) const {
@@ -47,13 +106,14 @@ class MeshIndex::Impl {
   }
 
   bool Blocks(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
-    return tree_.do_intersect(Kernel::Segment_3(ToCgal(from), ToCgal(to)));
+    return obstacles_->AreBetween(from, to);
   }
 
  private:
   Triangles triangles_;
   std::vector<std::uint32_t> triangle_idx_;  // In the mesh, of each that is kept.
   Tree tree_;
+  std::unique_ptr<const Obstacles> obstacles_;
 };
 
 MeshIndex::MeshIndex(const TriangleMesh& mesh) : impl_(std::make_unique<Impl>(mesh)) {}
