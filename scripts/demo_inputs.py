@@ -2,61 +2,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a demo checks before it deletes anything: its camera, and that its folder is a demo's."""
 
-import math
 import re
 import shutil
+import subprocess
 import sys
-
-import yaml
 
 MADE_BY_DEMO = ".plumbline_demo"  # Tells a folder that may be emptied.
 
 
 def check_camera(path):
-    """Ends with what is wrong with a file if it is no calibration; the nodes check the rest."""
-    cure = "give CAMERA= the ROS camera_info YAML of the camera that took the photos"
-    try:
-        content = yaml.safe_load(path.read_text())
-    except OSError as error:
-        sys.exit(f"{path}: cannot be read: {error.strerror}; {cure}")
-    except (UnicodeDecodeError, yaml.YAMLError):
-        sys.exit(f"{path}: is no YAML; {cure}")
-    fault = camera_fault(content)
-    if fault:
-        sys.exit(f"{path}: {fault}; {cure}")
-
-
-def camera_fault(content):
-    """What is wrong with the content of a camera_info YAML, or None."""
-    for name in ("image_width", "image_height", "camera_matrix", "distortion_model",
-                 "distortion_coefficients"):
-        if not isinstance(content, dict) or name not in content:
-            return f"has no {name}"
-    for name in ("image_width", "image_height"):
-        if not is_finite([content[name]]) or float(content[name]) < 1:
-            return f"{name} must be a number of pixels, but is {content[name]}"
-    num_coefficients = {"plumb_bob": [4, 5], "rational_polynomial": [8]}
-    if content["distortion_model"] not in [*num_coefficients]:
-        return f"distortion_model must be one of {', '.join(num_coefficients)}"
-    coefficients = num_coefficients[content["distortion_model"]]
-    for name, lengths in (("camera_matrix", [9]), ("distortion_coefficients", coefficients)):
-        data = content[name].get("data") if isinstance(content[name], dict) else None
-        if not isinstance(data, list) or len(data) not in lengths:
-            return f"{name} must have a list named data of {' or '.join(map(str, lengths))} numbers"
-        if not is_finite(data):
-            return f"{name} must have finite numbers, but has {data}"
-    focal_lengths_px = [float(content["camera_matrix"]["data"][place]) for place in (0, 4)]
-    if min(focal_lengths_px) <= 0.0:
-        return f"the focal lengths must be positive, but are {focal_lengths_px}"
-    return None
-
-
-def is_finite(values):
-    """Whether all are finite numbers; also 1e-3, which YAML 1.1 takes for a word."""
-    try:
-        return all(math.isfinite(float(value)) for value in values)
-    except (TypeError, ValueError):
-        return False
+    """Ends with what is wrong with a file if the nodes would not take it as a camera."""
+    run = subprocess.run(["rosrun", "plumbline", "plumbline", "check", "--camera", str(path)],
+                         stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
+    if run.returncode != 0:
+        sys.exit(f"{run.stderr.strip()}; give CAMERA= the ROS camera_info YAML of the camera that "
+                 "took the photos")
 
 
 def is_own_folder(folder):

@@ -78,21 +78,33 @@ void WriteAll(int descriptor, const void* data, std::size_t size, const std::str
   }
 }
 
+std::filesystem::path FolderOf(const std::filesystem::path& target) {
+  return target.has_parent_path() ? target.parent_path() : ".";
+}
+
+[[noreturn]] void FailToCreate(const std::string& path, int error) {
+  if (error != ENOENT) Fail(path, "create", error);
+  throw std::runtime_error(path + ": cannot create: there is no folder " + FolderOf(path).string() +
+                           "; make it or choose another");
+}
+
 }  // namespace
+
+void RequireWritable(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) {
+    throw std::runtime_error(path + ": is a folder; name a file in it");
+  }
+  if (::access((FolderOf(path) / ".").c_str(), W_OK) != 0) FailToCreate(path, errno);
+}
 
 void WriteFileAtomically(const std::string& path, const void* data, std::size_t size) {
   const std::filesystem::path target(path);
-  const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
+  const std::filesystem::path folder = FolderOf(target);
   const std::string temporary_name =
       kTemporaryPrefix + std::to_string(::getpid()) + '-' + target.filename().string();
   TemporaryFile temporary((folder / temporary_name).string());
-  if (temporary.descriptor() < 0) {
-    if (errno == ENOENT) {
-      throw std::runtime_error(path + ": cannot create: there is no folder " + folder.string() +
-                               "; make it or choose another");
-    }
-    Fail(path, "create", errno);
-  }
+  if (temporary.descriptor() < 0) FailToCreate(path, errno);
   WriteAll(temporary.descriptor(), data, size, path);
   if (::fsync(temporary.descriptor()) != 0) Fail(path, "write", errno);
   if (!temporary.RenameTo(path)) Fail(path, "rename to", errno);

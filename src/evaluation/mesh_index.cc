@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <memory>
-#include <new>
 #include <stdexcept>
 
 #include "common/embree_handle.h"
@@ -26,30 +25,18 @@ using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 class Obstacles {
  public:
   explicit Obstacles(const Triangles& triangles)
-      : device_(rtcNewDevice("set_affinity=0")), scene_(rtcNewScene(device_.get())) {
-    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry,
-                                                                 RTC_BUFFER_TYPE_VERTEX,
-                                                                 0,
-                                                                 RTC_FORMAT_FLOAT3,
-                                                                 3 * sizeof(float),
-                                                                 3 * triangles.size()));
-    auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry,
-                                                                   RTC_BUFFER_TYPE_INDEX,
-                                                                   0,
-                                                                   RTC_FORMAT_UINT3,
-                                                                   3 * sizeof(unsigned),
-                                                                   triangles.size()));
-    if (vertices == nullptr || indices == nullptr) throw std::bad_alloc();
+      : device_(internal::StartEmbree("set_affinity=0")), scene_(rtcNewScene(device_.get())) {
+    const internal::EmbreeTriangles all =
+        internal::NewTriangles(device_, 3 * triangles.size(), triangles.size());
+    float* coordinate = all.vertices;
     for (unsigned corner = 0; corner < 3 * triangles.size(); ++corner) {
       const Kernel::Point_3 point = triangles[corner / 3].vertex(static_cast<int>(corner % 3));
-      for (int axis = 0; axis < 3; ++axis) *vertices++ = static_cast<float>(point[axis]);
-      *indices++ = corner;
+      for (int axis = 0; axis < 3; ++axis) *coordinate++ = static_cast<float>(point[axis]);
+      all.indices[corner] = corner;
     }
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene_.get(), geometry);
-    rtcReleaseGeometry(geometry);
-    rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcCommitGeometry(all.geometry.get());
+    rtcAttachGeometry(scene_.get(), all.geometry.get());
+    rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);  // No ray slips through an edge.
     rtcCommitScene(scene_.get());
   }
 

@@ -5,8 +5,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <new>
-#include <stdexcept>
 #include <utility>
 
 namespace plumb::internal {
@@ -55,13 +53,6 @@ void KeepTrueHits(const RTCFilterFunctionNArguments* args) {
   }
 }
 
-RTCDevice NewDevice() {
-  // A number of threads given here would bind all that TBB does in this program, OpenCV's too.
-  RTCDevice device = rtcNewDevice("set_affinity=0");
-  if (device == nullptr) throw std::runtime_error("cannot start Embree, which casts the rays");
-  return device;
-}
-
 RTCScene NewScene(RTCDevice device) {
   RTCScene scene = rtcNewScene(device);
   rtcSetSceneFlags(scene,
@@ -70,29 +61,19 @@ RTCScene NewScene(RTCDevice device) {
   return scene;
 }
 
-RTCGeometry NewTriangles(RTCDevice device, const MeshBlock& block) {
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry,
-                                                               RTC_BUFFER_TYPE_VERTEX,
-                                                               0,
-                                                               RTC_FORMAT_FLOAT3,
-                                                               3 * sizeof(float),
-                                                               block.vertices.size()));
-  auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry,
-                                                                 RTC_BUFFER_TYPE_INDEX,
-                                                                 0,
-                                                                 RTC_FORMAT_UINT3,
-                                                                 3 * sizeof(unsigned),
-                                                                 block.faces.size()));
-  if (vertices == nullptr || indices == nullptr) throw std::bad_alloc();
+EmbreeGeometry GeometryOf(const EmbreeDevice& device, const MeshBlock& block) {
+  EmbreeTriangles triangles = NewTriangles(device, block.vertices.size(), block.faces.size());
+  float* coordinate = triangles.vertices;
   for (const MeshVertex& vertex : block.vertices) {
-    for (int k = 0; k < 3; ++k) *vertices++ = static_cast<float>(vertex.position_in_map[k]);
+    for (int k = 0; k < 3; ++k) *coordinate++ = static_cast<float>(vertex.position_in_map[k]);
   }
-  for (const auto& face : block.faces) indices = std::copy(face.begin(), face.end(), indices);
+  unsigned* index = triangles.indices;
+  for (const auto& face : block.faces) index = std::copy(face.begin(), face.end(), index);
+  RTCGeometry geometry = triangles.geometry.get();
   rtcSetGeometryUserData(geometry, const_cast<MeshBlock*>(&block));
   rtcSetGeometryOccludedFilterFunction(geometry, &KeepTrueHits);
   rtcCommitGeometry(geometry);
-  return geometry;
+  return std::move(triangles.geometry);
 }
 
 std::int32_t FloorDivide(std::int32_t index) {
@@ -122,7 +103,7 @@ void Fill(const Cast& cast, std::array<int, kPacketSize>* valid, RTCRay16* rays)
 
 }  // namespace
 
-Occluders::Occluders() : device_(NewDevice()), scene_(NewScene(device_.get())) {}
+Occluders::Occluders() : device_(StartEmbree("set_affinity=0")), scene_(NewScene(device_.get())) {}
 
 Occluders::~Occluders() = default;
 
@@ -143,7 +124,7 @@ Occluders::Region* Occluders::EnsureRegion(const BlockId& id) {
 void Occluders::Set(const MeshBlock& block) {
   Remove(block.id);
   if (block.faces.empty()) return;
-  const EmbreeGeometry geometry(NewTriangles(device_.get(), block));
+  const EmbreeGeometry geometry = GeometryOf(device_, block);
   const BlockId region_id = RegionOf(block.id);
   Region* region = EnsureRegion(region_id);
   region->geometry_of_block[block.id] = rtcAttachGeometry(region->scene.get(), geometry.get());

@@ -13,13 +13,6 @@ namespace {
 
 constexpr unsigned kNoMask = ~0U;
 
-RTCDevice NewDevice() {
-  // One thread builds the tree, so that it is the same every time.
-  RTCDevice device = rtcNewDevice("threads=1,set_affinity=0");
-  if (device == nullptr) throw std::runtime_error("cannot start Embree, which casts the rays");
-  return device;
-}
-
 void CopyRays(const RayPacket& packet, float max_along, RTCRay16* rays) {
   for (int i = 0; i < RayPacket::kSize; ++i) {
     rays->org_x[i] = packet.origin_x[i];
@@ -46,8 +39,11 @@ RTCIntersectContext ContextOf(const RayPacket& packet) {
 
 }  // namespace
 
+// One thread builds the tree, so that it is the same every time.
 RayScene::RayScene(std::vector<Triangle3> triangles)
-    : triangles_(std::move(triangles)), device_(NewDevice()), scene_(rtcNewScene(device_.get())) {
+    : triangles_(std::move(triangles)),
+      device_(StartEmbree("threads=1,set_affinity=0")),
+      scene_(rtcNewScene(device_.get())) {
   rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);  // No ray slips through an edge.
   rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_HIGH);
   if (!triangles_.empty()) AddTriangles();
@@ -58,31 +54,19 @@ RayScene::RayScene(std::vector<Triangle3> triangles)
 }
 
 void RayScene::AddTriangles() {
-  RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry,
-                                                               RTC_BUFFER_TYPE_VERTEX,
-                                                               0,
-                                                               RTC_FORMAT_FLOAT3,
-                                                               3 * sizeof(float),
-                                                               3 * triangles_.size()));
-  auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry,
-                                                                 RTC_BUFFER_TYPE_INDEX,
-                                                                 0,
-                                                                 RTC_FORMAT_UINT3,
-                                                                 3 * sizeof(unsigned),
-                                                                 triangles_.size()));
-  if (vertices == nullptr || indices == nullptr) throw std::bad_alloc();
+  const EmbreeTriangles all = NewTriangles(device_, 3 * triangles_.size(), triangles_.size());
+  float* coordinate = all.vertices;
   unsigned index = 0;
   for (const Triangle3& triangle : triangles_) {
     for (const Eigen::Vector3d& vertex : triangle) {
-      for (int k = 0; k < 3; ++k) *vertices++ = static_cast<float>(vertex[k]);
-      *indices++ = index++;
+      for (int k = 0; k < 3; ++k) *coordinate++ = static_cast<float>(vertex[k]);
+      all.indices[index] = index;
+      ++index;
       scene_radius_ = std::max(scene_radius_, vertex.norm());
     }
   }
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene_.get(), geometry);
-  rtcReleaseGeometry(geometry);
+  rtcCommitGeometry(all.geometry.get());
+  rtcAttachGeometry(scene_.get(), all.geometry.get());
 }
 
 void RayScene::FirstHits(const RayPacket& packet,

@@ -2,13 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/calibrate.h"
 
-#include <unistd.h>
-
-#include <filesystem>
 #include <iomanip>
 #include <optional>
 #include <sstream>
-#include <stdexcept>
 
 #include "plumbline/calibration/calibration_report.h"
 #include "plumbline/calibration/calibrator.h"
@@ -60,25 +56,6 @@ std::vector<CalibrationPhoto> DetectAgain(const CalibrateArguments& arguments,
     if (detected.problem.empty()) photos[i] = ToCalibrationPhoto(detected, true);
   }
   return photos;
-}
-
-// Throws as writing the file at the end would.
-void RequireWritable(const std::string& path) {
-  namespace fs = std::filesystem;
-  const fs::path target(path);
-  const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
-  std::error_code error;
-  if (fs::is_directory(target, error)) {
-    throw std::runtime_error(path + ": is a folder; name a file in it");
-  }
-  if (!fs::exists(folder, error)) {
-    throw std::runtime_error(path + ": cannot create: there is no folder " + folder.string() +
-                             "; make it or choose another");
-  }
-  if (!fs::is_directory(folder, error) || ::access(folder.c_str(), W_OK) != 0) {
-    throw std::runtime_error(path + ": cannot create: " + folder.string() +
-                             " is not a folder that can be written to; choose another");
-  }
 }
 
 std::string Fixed(double value, int digits) {

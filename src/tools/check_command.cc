@@ -45,9 +45,11 @@ Json CheckPhoto(const Camera& camera, const std::string& folder, const std::stri
           {"cpu_s", CurrentProcessUsage().cpu_s - cpu_before_s}};
 }
 
-// Prints a line for each photo; kNothingLocated if none is usable.
+// Prints a line for each photo; kNothingLocated if none is usable. Without a folder of photos the
+// camera alone is checked.
 ExitCode Check(const CheckArguments& arguments) {
   const Camera camera = ReadCameraYaml(arguments.camera);
+  if (arguments.photos.empty()) return kDone;
   const PhotoListing listing = ListPhotos(arguments.photos);
   for (const std::string& line : Describe(listing)) std::cerr << line << '\n';
   ExitCode exit_code = kNothingLocated;
@@ -64,15 +66,17 @@ ExitCode Check(const CheckArguments& arguments) {
 
 void AddCheckCommand(CLI::App* app, ExitCode* exit_code) {
   CLI::App* command = app->add_subcommand(
-      "check", "Say of each photo of a folder whether it is usable, without a map");
+      "check", "Say of a camera and of each photo of a folder whether it is usable, without a map");
   command->footer(
       "Prints one line of JSON a photo: whether it is usable and why not, size and blur [px], "
       "number of features, wall and CPU seconds of its decoding and features. Other files are "
       "named on standard error.\n" +
       std::string(kExitCodes));
   const auto arguments = std::make_shared<CheckArguments>();
-  command->add_option("--photos", arguments->photos, "Folder of photos, with its sub-folders")
-      ->required();
+  command->add_option(
+      "--photos",
+      arguments->photos,
+      "Folder of photos, with its sub-folders; without, the camera alone is checked");
   command->add_option("--camera", arguments->camera, "Lens: ROS camera_info YAML, lengths in px")
       ->required();
   command->callback([arguments, exit_code] { *exit_code = Check(*arguments); });

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/georeference.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -221,16 +219,6 @@ void CheckIsUsable(const GeoreferenceArguments& arguments, const Georeference& g
                            "line; give --survey");
 }
 
-// Before the work is done that is to be written.
-void CheckIsWritable(const std::string& session) {
-  const std::string exports = std::filesystem::path(GeoreferencePath(session)).parent_path();
-  const std::string& folder = std::filesystem::exists(exports) ? exports : session;
-  if (access(folder.c_str(), W_OK) == 0) return;
-  throw std::runtime_error(folder +
-                           ": cannot be written to: " + std::generic_category().message(errno) +
-                           "; copy the session to where it can be");
-}
-
 void PrintLines(const Georeference& georeference, Console* console) {
   for (const std::string& line : Describe(georeference)) console->PrintLine(line);
 }
@@ -282,7 +270,8 @@ SessionGeoreference GeoreferenceSession(const GeoreferenceArguments& arguments,
 void WriteSessionGeoreference(const GeoreferenceArguments& arguments, Console* console) {
   const Settings settings = ReadSettings(arguments.settings);
   std::optional<SessionStore> store = SessionStore::OpenExisting(arguments.session);
-  CheckIsWritable(arguments.session);
+  const std::string exports = arguments.session + "/export";  // Made at the end, if need be.
+  RequireWritable(std::filesystem::exists(exports) ? GeoreferencePath(arguments.session) : exports);
   const bool had_refinement = store->HasRefinement();
   if (arguments.refine || had_refinement) {  // They are to be written.
     store.emplace(SessionStore(arguments.session, store->camera()));

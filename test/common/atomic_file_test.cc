@@ -60,6 +60,29 @@ TEST_F(AtomicFile, AFailureNamesTheFileAndLeavesNothingBehind) {
   EXPECT_THROW(WriteFileAtomically((folder_ / "absent/file").string(), "text"), std::runtime_error);
 }
 
+TEST_F(AtomicFile, WhetherItCanBeWrittenIsToldBeforeAsAfter) {
+  const auto told = [](const std::string& path, auto write) -> std::string {
+    try {
+      write(path);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return {};
+  };
+  const auto require = [](const std::string& path) { RequireWritable(path); };
+  const auto write = [](const std::string& path) { WriteFileAtomically(path, "text"); };
+  EXPECT_EQ(told(folder_ / "new", require), "");
+  EXPECT_EQ(NumFiles(), 0u);
+  write(folder_ / "file");
+  EXPECT_EQ(told(folder_ / "file", require), "");
+  for (const char* name : {"absent/file", "file/file"}) {
+    const std::string before = told(folder_ / name, require);
+    EXPECT_THAT(before, HasSubstr("cannot create"));
+    EXPECT_EQ(before, told(folder_ / name, write));
+  }
+  EXPECT_THAT(told(folder_, require), HasSubstr("is a folder"));
+}
+
 TEST_F(AtomicFile, ReadingWhatIsAbsentOrAFolderNamesIt) {
   for (const std::filesystem::path& path : {folder_ / "absent.jpg", folder_}) {
     try {

@@ -21,18 +21,20 @@ class DemoInputsTest(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             camera = pathlib.Path(folder) / "camera.yaml"
             for content, problem in ((None, "cannot be read"), ("image_width: 1", "image_height"),
-                                     ("{", "no YAML"), ("- 1", "image_width")):
+                                     ("{", "not YAML"), ("- 1", "image_width")):
                 if content is not None:
                     camera.write_text(content)
                 with self.assertRaises(SystemExit) as end:
                     demo_inputs.check_camera(camera)
                 self.assertIn(problem, str(end.exception))
                 self.assertIn("CAMERA=", str(end.exception))
-            for word, bad, problem in (("50", ".nan", "finite"), ("50", "nan", "finite"),
+            for word, bad, problem in (("50", ".nan", "finite"), ("50", "nan", "must be a number"),
                                        ("50", "-50", "positive"), ("5e1", "0", "positive"),
-                                       ("50, ", "", "9 numbers"), ("60", "wide", "image_width"),
-                                       ("1e-3", ".inf", "distortion_coefficients"),
-                                       ("0, 0, 1e-3", "1e-3", "4 or 5 numbers"),
+                                       ("50, ", "", "camera_matrix: rows times cols"),
+                                       ("60", "wide", "image_width"),
+                                       ("1e-3", ".inf", "p1 must be a finite"),
+                                       ("0, 0, 1e-3", "1e-3",
+                                        "distortion_coefficients: rows times cols"),
                                        ("plumb_bob", "[1]", "distortion_model")):
                 camera.write_text(CAMERA.replace(word, bad, 1))
                 with self.assertRaises(SystemExit) as end:

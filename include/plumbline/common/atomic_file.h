@@ -15,6 +15,10 @@ namespace plumb {
 void WriteFileAtomically(const std::string& path, const void* data, std::size_t size);
 void WriteFileAtomically(const std::string& path, const std::string& text);
 
+// Before long work whose outcome is to be written: throws as WriteFileAtomically would if it could
+// not put a file at `path`. Creates nothing.
+void RequireWritable(const std::string& path);
+
 // The whole file. Throws std::runtime_error naming the file and the cause.
 std::vector<std::uint8_t> ReadFileBytes(const std::string& path);
 
