@@ -130,6 +130,7 @@ if(benchmark_FOUND AND APRILTAG_FOUND AND TARGET opencv_aruco)
   target_link_libraries(marker_benchmark PRIVATE plumb_marker opencv_aruco PkgConfig::APRILTAG
                         nlohmann_json::nlohmann_json)
   target_link_libraries(georeference_benchmark PRIVATE plumb_georeference)
+  target_link_libraries(colmap_matches_benchmark PRIVATE plumb_map plumb_matching)
   # The calibration beside OpenCV's.
   target_link_libraries(calibration_benchmark PRIVATE plumb_calibration
                         nlohmann_json::nlohmann_json)

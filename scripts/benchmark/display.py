@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Section: how soon RViz shows that one block of a large mesh has changed.
 
-A wall of 231 blocks with 1000 triangles each, as the mesher sends them, in RViz with
-rviz/flight.rviz on a virtual display. Its middle block changes colour; the time runs from the
+A wall of 231 blocks with 1000 triangles each, as the mesher sends them, in RViz as
+launch/rviz.launch starts it, on a virtual display. Its middle block changes colour; the time runs from the
 message until the colour is on the screen.
 """
 import os
@@ -23,6 +23,7 @@ BLOCKS = (21, 11)  # Of a metre; the middle one is in the middle of the view.
 TRIANGLES = 1000  # A block.
 CHANGES = 15
 DEADLINE_S = 60.0
+MOST_S = 0.5  # Median.
 PIXEL = "16x16+1012+506"  # Inside the middle block.
 COLOURS = ((0.9, 0.1, 0.1), (0.1, 0.1, 0.9))
 
@@ -78,7 +79,7 @@ def run(arguments):
                 environment["DISPLAY"] = ":" + pipe.readline().strip()
             with open(os.path.join(folder, "log"), "w") as output:
                 master = ["rosmaster", "--core", "-p", environment["ROS_MASTER_URI"].split(":")[-1]]
-                for words in (master, ["rviz", "-d", os.path.join(ROOT, "rviz", "flight.rviz")]):
+                for words in (master, ["roslaunch", "plumbline", "rviz.launch"]):
                     programs.append(subprocess.Popen(words, env=environment, stdout=output,
                                                      stderr=output))
                     wait_until(lambda: has_master(environment), "the master")
@@ -125,9 +126,10 @@ def measure(environment):
         start = time.monotonic()
         colour_on_screen(environment)
         grabs.append(time.monotonic() - start)
-    return {"triangles": len(wall) * TRIANGLES, "seconds": seconds,
-            "median_s": statistics.median(seconds), "max_s": max(seconds),
-            "screen_grab_s": statistics.median(grabs), "failures": []}
+    median = statistics.median(seconds)
+    failures = ["display: %.2f s, at most %g s" % (median, MOST_S)] if median > MOST_S else []
+    return {"triangles": len(wall) * TRIANGLES, "seconds": seconds, "median_s": median,
+            "max_s": max(seconds), "screen_grab_s": statistics.median(grabs), "failures": failures}
 
 
 def make_block(column, row, colour):

@@ -27,8 +27,8 @@ std::int32_t Sum(const std::array<std::uint16_t, 4>& counts) {
 
 // Whether beyond face `i` the world ends, and rays leave it there.
 bool IsOpenHull(const Triangulation& triangulation, Cell cell, int i) {
-  return triangulation.is_infinite(cell->neighbor(i)) &&
-         cell->info().num_crossing[static_cast<std::size_t>(i)] > 0;
+  return cell->info().num_crossing[static_cast<std::size_t>(i)] > 0 &&
+         triangulation.is_infinite(cell->neighbor(i));
 }
 
 }  // namespace

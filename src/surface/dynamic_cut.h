@@ -24,6 +24,10 @@ constexpr CutNode kNoCutNode = 0xFFFFFFFF;
 class DynamicCut {
  public:
   static constexpr std::uint32_t kDegree = 4;
+  static constexpr std::uint32_t kNoArc = 0xFFFFFFFF;
+
+  static CutNode NodeOf(std::uint32_t arc) { return arc / kDegree; }
+  static std::uint32_t SlotOf(std::uint32_t arc) { return arc % kDegree; }
 
   // An unconnected node without terminal capacity. Numbers of removed nodes are used again.
   CutNode AddNode();
@@ -43,6 +47,11 @@ class DynamicCut {
 
   // kNoCutNode if the slot is empty.
   CutNode NeighborOf(CutNode node, std::uint32_t slot) const;
+
+  // The edge's other end; kNoArc if the slot is empty.
+  std::uint32_t SisterOf(std::uint32_t arc) const {
+    return nodes_[NodeOf(arc)].sister[SlotOf(arc)];
+  }
 
   // Brings flow and labels up to date with all changes since the last call.
   void Solve();
@@ -65,7 +74,6 @@ class DynamicCut {
   // Where the path to the node's terminal leads first: a slot, or one of these.
   static constexpr std::uint8_t kTerminal = 4;
   static constexpr std::uint8_t kOrphan = 5;
-  static constexpr std::uint32_t kNoArc = 0xFFFFFFFF;
 
   struct Node {
     std::array<std::uint32_t, kDegree> sister = {kNoArc, kNoArc, kNoArc, kNoArc};
@@ -83,12 +91,7 @@ class DynamicCut {
     bool is_at_source = false;
   };
 
-  static CutNode NodeOf(std::uint32_t arc) { return arc / kDegree; }
-  static std::uint32_t SlotOf(std::uint32_t arc) { return arc % kDegree; }
   std::int32_t& ResidualOf(std::uint32_t arc) { return nodes_[NodeOf(arc)].residual[SlotOf(arc)]; }
-  std::uint32_t SisterOf(std::uint32_t arc) const {
-    return nodes_[NodeOf(arc)].sister[SlotOf(arc)];
-  }
 
   void Touch(CutNode node);
   void SetActive(CutNode node);

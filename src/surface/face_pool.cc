@@ -35,9 +35,8 @@ FaceIdx FacePool::Add(std::uint32_t arc,
     face = unused_.back();
     unused_.pop_back();
   }
-  faces_[face] = Face{slots, key, arc, block, /*is_used=*/true};
-  if (face_of_arc_.size() <= arc) face_of_arc_.resize(arc + 1, kNoFace);
-  face_of_arc_[arc] = face;
+  faces_[face] = Face{slots, key, kNoFaceArc, block, /*is_used=*/true};
+  Attach(face, arc);
   for (const Slot slot : slots) {
     if (faces_of_slot_.size() <= slot) faces_of_slot_.resize(slot + 1);
     faces_of_slot_[slot].push_back(face);
@@ -49,11 +48,30 @@ FaceIdx FacePool::Add(std::uint32_t arc,
 void FacePool::Remove(FaceIdx face) {
   Face& gone = faces_[face];
   PLUMB_CHECK(gone.is_used);
-  face_of_arc_[gone.arc] = kNoFace;
+  if (!IsDetached(face)) Detach(face);
   for (const Slot slot : gone.slots) EraseFrom(&faces_of_slot_[slot], face);
   LeaveBlock(face);
   gone = Face();
   unused_.push_back(face);
+}
+
+void FacePool::Detach(FaceIdx face) {
+  face_of_arc_[faces_[face].arc] = kNoFace;
+  faces_[face].arc = kNoFaceArc;
+}
+
+void FacePool::Attach(FaceIdx face, std::uint32_t arc) {
+  PLUMB_CHECK(IsDetached(face));
+  faces_[face].arc = arc;
+  if (face_of_arc_.size() <= arc) face_of_arc_.resize(arc + 1, kNoFace);
+  face_of_arc_[arc] = face;
+}
+
+FaceIdx FacePool::FindDetached(const FaceSlots& slots) const {
+  for (const FaceIdx face : AroundSlot(slots[0])) {
+    if (IsDetached(face) && faces_[face].slots == slots) return face;
+  }
+  return kNoFace;
 }
 
 void FacePool::MoveTo(FaceIdx face, const BlockId& block) {

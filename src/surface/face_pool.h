@@ -19,10 +19,12 @@ constexpr FaceIdx kNoFace = 0xFFFFFFFF;
 // Corners of a face, anticlockwise seen from outside, the smallest landmark id first.
 using FaceSlots = std::array<Slot, 3>;
 
+constexpr std::uint32_t kNoFaceArc = 0xFFFFFFFF;
+
 struct Face {
   FaceSlots slots = {kNoSlot, kNoSlot, kNoSlot};
   FaceKey key;
-  std::uint32_t arc = 0;  // Slot of the cut that it lies at, on the occupied side.
+  std::uint32_t arc = kNoFaceArc;  // Slot of the cut that it lies at, on the occupied side.
   BlockId block;
   bool is_used = false;
   bool is_island = false;
@@ -30,12 +32,15 @@ struct Face {
 };
 
 // The faces between free and occupied cells that rays support, each found by its arc, by its
-// corners, and by its block.
+// corners, and by its block. One whose cell is gone may be detached until it is known whether
+// another cell has the same face.
 class FacePool {
  public:
   // There must be none at the arc.
   FaceIdx Add(std::uint32_t arc, const FaceSlots& slots, const FaceKey& key, const BlockId& block);
   void Remove(FaceIdx face);
+  void Detach(FaceIdx face);
+  void Attach(FaceIdx face, std::uint32_t arc);
   void MoveTo(FaceIdx face, const BlockId& block);
   void SetIsland(FaceIdx face, bool is_island) { faces_[face].is_island = is_island; }
   void SetPublished(FaceIdx face, bool is_published) { faces_[face].is_published = is_published; }
@@ -43,6 +48,10 @@ class FacePool {
   FaceIdx AtArc(std::uint32_t arc) const {
     return arc < face_of_arc_.size() ? face_of_arc_[arc] : kNoFace;
   }
+  bool IsDetached(FaceIdx face) const {
+    return faces_[face].is_used && faces_[face].arc == kNoFaceArc;
+  }
+  FaceIdx FindDetached(const FaceSlots& slots) const;  // kNoFace if there is none.
   const Face& operator[](FaceIdx face) const { return faces_[face]; }
   const std::vector<FaceIdx>& AroundSlot(Slot slot) const;
   const std::vector<FaceIdx>& InBlock(const BlockId& block) const;

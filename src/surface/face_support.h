@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "plumbline/surface/surface_options.h"
@@ -21,12 +22,26 @@ class FaceSupport {
  public:
   explicit FaceSupport(const SurfaceOptions& options) : max_edge_ratio_(options.max_edge_ratio) {}
 
-  // A function of the corners' places and rays alone.
+  // A function of the corners' places and rays alone. Rays once asked for are kept: a landmark is a
+  // corner of some six faces.
   bool IsSupported(const RayScene& scene, const FaceSlots& slots);
 
+  // To be called before the scene changes.
+  void ForgetRays();
+
  private:
+  struct RayRange {
+    std::uint32_t begin = 0;
+    std::uint32_t end = 0;  // 0: not known.
+  };
+
+  RayRange RangeOf(const RayScene& scene, Slot slot);
+
   double max_edge_ratio_;
-  std::vector<SceneRay> rays_;
+  std::vector<SceneRay> rays_;  // Of known landmarks, one after the other.
+  std::vector<RayRange> range_of_slot_;
+  std::vector<Slot> known_slots_;
+  std::vector<SceneRay> new_rays_;
   std::vector<PhotoId> common_;  // Photos that show all corners so far, ascending.
 };
 

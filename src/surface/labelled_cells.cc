@@ -23,6 +23,7 @@ void LabelledCells::Apply(const MapDelta& delta, SurfaceReport* report) {
   Stopwatch watch;
   const std::size_t num_before = scene_.num_placed();
   SceneChanges changes = scene_.Apply(delta, report);
+  MarkReseen(changes);
   report->scene_s = watch.Restart();
 
   const double max_moved = kMaxShareMoved * static_cast<double>(num_before);
@@ -119,9 +120,11 @@ void LabelledCells::Weigh(SurfaceReport* report) {
     if (cell == Cell()) continue;
     ++report->num_cells_changed;
     cut_.SetTerminal(node, TerminalOf(options_, tetrahedra_->triangulation(), cell));
-    for (int i = 0; i < 4; ++i) {
-      if (cell->neighbor(i)->info().node == kNoCutNode) continue;
-      cut_.SetCapacity(node, static_cast<std::uint32_t>(i), FaceWeightOf(options_, cell, i));
+    for (std::uint32_t i = 0; i < DynamicCut::kDegree; ++i) {
+      const CutNode neighbor = cut_.NeighborOf(node, i);
+      if (neighbor == kNoCutNode) continue;
+      if (IsChanged(neighbor) && neighbor < node) continue;  // It does it.
+      cut_.SetCapacity(node, i, FaceWeightOf(options_, cell, static_cast<int>(i)));
     }
   }
 }
@@ -131,6 +134,14 @@ void LabelledCells::MarkChanged(CutNode node) {
   if (is_changed_[node] != 0) return;
   is_changed_[node] = 1;
   changed_nodes_.push_back(node);
+}
+
+void LabelledCells::MarkReseen(const SceneChanges& changes) {
+  for (const Slot slot : reseen_) is_reseen_[slot] = 0;
+  reseen_ = changes.inserted;
+  reseen_.insert(reseen_.end(), changes.recast.begin(), changes.recast.end());
+  is_reseen_.resize(scene_.num_slots(), 0);
+  for (const Slot slot : reseen_) is_reseen_[slot] = 1;
 }
 
 }  // namespace plumb

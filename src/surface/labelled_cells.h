@@ -37,6 +37,8 @@ class LabelledCells {
   // label, their rays or a neighbour changed), each once; and landmarks drawn elsewhere.
   const std::vector<CutNode>& changed_nodes() const { return changed_nodes_; }
   const std::vector<Slot>& redrawn() const { return redrawn_; }
+  // Whether the last Apply changed a landmark's place or rays.
+  bool IsReseen(Slot slot) const { return slot < is_reseen_.size() && is_reseen_[slot] != 0; }
 
  private:
   void Rebuild();
@@ -45,7 +47,11 @@ class LabelledCells {
   void CastSlot(Slot slot, SurfaceReport* report);
   void ConnectCreated();
   void Weigh(SurfaceReport* report);
+  bool IsChanged(CutNode node) const {
+    return node < is_changed_.size() && is_changed_[node] != 0;
+  }
   void MarkChanged(CutNode node);
+  void MarkReseen(const SceneChanges& changes);
 
   SurfaceOptions options_;
   RayScene scene_;
@@ -54,6 +60,8 @@ class LabelledCells {
   std::vector<char> is_changed_;  // By node.
   std::vector<CutNode> changed_nodes_;
   std::vector<Slot> redrawn_;
+  std::vector<char> is_reseen_;  // By slot.
+  std::vector<Slot> reseen_;
   std::vector<SceneRay> rays_;
   std::vector<Cell> star_;
 };

@@ -12,10 +12,6 @@
 namespace plumb {
 namespace {
 
-std::uint32_t ArcOf(Cell cell, int i) {
-  return DynamicCut::kDegree * cell->info().node + static_cast<std::uint32_t>(i);
-}
-
 std::int32_t BlockIndex(double position, double side) {
   constexpr double kLimit =
       std::numeric_limits<std::int32_t>::max() - 2;  // Neighbours have ids too.
@@ -29,8 +25,9 @@ SurfaceMesh::SurfaceMesh(const SurfaceOptions& options)
 
 MeshDelta SurfaceMesh::Update(const LabelledCells& cells) {
   num_checked_ = 0;
-  DropFaces(cells);
+  DetachFaces(cells);
   CheckFaces(cells);
+  RemoveDetached();
   MoveRedrawn(cells);
   std::vector<FaceIdx> candidates = islands_.Update(touched_slots_, &pool_);
   candidates.insert(candidates.end(), added_.begin(), added_.end());
@@ -63,53 +60,68 @@ MeshDelta SurfaceMesh::Snapshot(const RayScene& scene) const {
   return snapshot;
 }
 
-// All faces that may have changed go, and come back if they are still there.
-void SurfaceMesh::DropFaces(const LabelledCells& cells) {
+// All faces that may have changed; most of them are attached again.
+void SurfaceMesh::DetachFaces(const LabelledCells& cells) {
   for (const CutNode node : cells.changed_nodes()) {
+    const bool is_there = cells.tetrahedra().CellOf(node) != Cell();
     for (std::uint32_t i = 0; i < DynamicCut::kDegree; ++i) {
-      DropAt(DynamicCut::kDegree * node + i);
-    }
-    const Cell cell = cells.tetrahedra().CellOf(node);
-    if (cell == Cell()) continue;
-    for (int i = 0; i < 4; ++i) {
-      const Cell neighbor = cell->neighbor(i);
-      if (neighbor->info().node != kNoCutNode) DropAt(ArcOf(neighbor, neighbor->index(cell)));
+      const std::uint32_t arc = DynamicCut::kDegree * node + i;
+      DetachAt(arc);
+      if (is_there) DetachAt(cells.cut().SisterOf(arc));
     }
   }
 }
 
-void SurfaceMesh::DropAt(std::uint32_t arc) {
+void SurfaceMesh::DetachAt(std::uint32_t arc) {
   const FaceIdx face = pool_.AtArc(arc);
   if (face == kNoFace) return;
-  const Face& gone = pool_[face];
-  touched_slots_.insert(touched_slots_.end(), gone.slots.begin(), gone.slots.end());
-  if (gone.is_published) unpublished_[gone.key] = gone.block;
-  pool_.Remove(face);
+  pool_.Detach(face);
+  detached_.push_back(face);
 }
 
 void SurfaceMesh::CheckFaces(const LabelledCells& cells) {
   for (const CutNode node : cells.changed_nodes()) {
-    const Cell cell = cells.tetrahedra().CellOf(node);
-    if (cell == Cell()) continue;
-    const bool is_free = cells.IsFree(cell);
-    for (int i = 0; i < 4; ++i) {
-      const Cell neighbor = cell->neighbor(i);
-      if (cells.IsFree(neighbor) == is_free) continue;
-      if (is_free) {
-        CheckFace(cells, neighbor, neighbor->index(cell));
-      } else {
-        CheckFace(cells, cell, i);
-      }
+    if (cells.tetrahedra().CellOf(node) == Cell()) continue;
+    const bool is_free = cells.cut().IsAtSource(node);
+    for (std::uint32_t i = 0; i < DynamicCut::kDegree; ++i) {
+      const std::uint32_t arc = DynamicCut::kDegree * node + i;
+      const std::uint32_t sister = cells.cut().SisterOf(arc);
+      const bool is_free_beyond =
+          sister == DynamicCut::kNoArc || cells.cut().IsAtSource(DynamicCut::NodeOf(sister));
+      if (is_free_beyond != is_free) CheckFace(cells, is_free ? sister : arc);
     }
+  }
+  support_.ForgetRays();
+}
+
+// A face between free and occupied; `arc` is that of the occupied side.
+void SurfaceMesh::CheckFace(const LabelledCells& cells, std::uint32_t arc) {
+  if (pool_.AtArc(arc) != kNoFace) return;
+  const Cell cell = cells.tetrahedra().CellOf(DynamicCut::NodeOf(arc));
+  const FaceSlots slots = OutwardFace(cell, static_cast<int>(DynamicCut::SlotOf(arc)));
+  const FaceIdx known = pool_.FindDetached(slots);
+  const bool is_as_known = known != kNoFace && !cells.IsReseen(slots[0]) &&
+                           !cells.IsReseen(slots[1]) && !cells.IsReseen(slots[2]);
+  if (!is_as_known) {
+    ++num_checked_;
+    if (!support_.IsSupported(cells.scene(), slots)) return;
+  }
+  if (known != kNoFace) {
+    pool_.Attach(known, arc);
+  } else {
+    AddFace(cells.scene(), arc, slots);
   }
 }
 
-void SurfaceMesh::CheckFace(const LabelledCells& cells, Cell cell, int i) {
-  const std::uint32_t arc = ArcOf(cell, i);
-  if (pool_.AtArc(arc) != kNoFace) return;
-  ++num_checked_;
-  const FaceSlots slots = OutwardFace(cell, i);
-  if (support_.IsSupported(cells.scene(), slots)) AddFace(cells.scene(), arc, slots);
+void SurfaceMesh::RemoveDetached() {
+  for (const FaceIdx face : detached_) {
+    if (!pool_.IsDetached(face)) continue;
+    const Face& gone = pool_[face];
+    touched_slots_.insert(touched_slots_.end(), gone.slots.begin(), gone.slots.end());
+    if (gone.is_published) unpublished_[gone.key] = gone.block;
+    pool_.Remove(face);
+  }
+  detached_.clear();
 }
 
 void SurfaceMesh::AddFace(const RayScene& scene, std::uint32_t arc, const FaceSlots& slots) {

@@ -32,10 +32,11 @@ class SurfaceMesh {
   std::size_t num_checked() const { return num_checked_; }  // By the last update.
 
  private:
-  void DropFaces(const LabelledCells& cells);
-  void DropAt(std::uint32_t arc);
+  void DetachFaces(const LabelledCells& cells);
+  void DetachAt(std::uint32_t arc);
   void CheckFaces(const LabelledCells& cells);
-  void CheckFace(const LabelledCells& cells, Cell cell, int i);
+  void CheckFace(const LabelledCells& cells, std::uint32_t arc);
+  void RemoveDetached();
   void AddFace(const RayScene& scene, std::uint32_t arc, const FaceSlots& slots);
   void MoveRedrawn(const LabelledCells& cells);
   void MarkRedrawn(const LabelledCells& cells);
@@ -52,6 +53,7 @@ class SurfaceMesh {
 
   // Of the update under way.
   std::map<FaceKey, BlockId> unpublished_;  // Were in the mesh that was last sent.
+  std::vector<FaceIdx> detached_;  // Some of them attached again.
   std::vector<FaceIdx> added_;
   std::vector<Slot> touched_slots_;
   std::set<BlockId> dirty_blocks_;
