@@ -55,6 +55,9 @@ plumb_module(sfm plumb_matching Ceres::ceres)
 plumb_module(surface plumb_map)
 target_link_libraries(plumb_surface PRIVATE CGAL::CGAL)
 plumb_module(quality plumb_surface opencv_imgproc embree)
+# Its loops become vector code, with the same bits on all processors.
+set_source_files_properties(src/quality/sight_kernel.cc PROPERTIES COMPILE_OPTIONS
+                            "-ffp-contract=off;-fno-math-errno;-fno-trapping-math")
 plumb_module(georeference plumb_sfm plumb_marker PkgConfig::PROJ)
 plumb_module(simulation plumb_marker embree PkgConfig::PROJ)
 # A vectorised square root sets no errno.

@@ -163,7 +163,6 @@ void QualityMap::Impl::ApplyMesh(const MeshDelta& delta) {
     for (const BlockId& id : gone) RemoveBlock(id);
   }
   for (const MeshBlock& block : delta.blocks) SetBlock(block);
-  occluders_.Commit();
 }
 
 void QualityMap::Impl::SetBlock(const MeshBlock& block) {
@@ -176,6 +175,7 @@ void QualityMap::Impl::SetBlock(const MeshBlock& block) {
   stored.shapes = ShapesOf(block);
   BlockState& state = states_[block.id];
   state.box = BoxOf(block);
+  state.faces = internal::FaceArrays(stored.shapes);
   state.ranks = RanksAlongCurve(stored.shapes, state.box);
   occluders_.Set(stored.mesh);
   NoteChange(block.id, state.box);

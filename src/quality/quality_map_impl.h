@@ -16,8 +16,7 @@
 
 namespace plumb {
 
-// Of a view and a block: for each face its StretchOfPixel, negative where the view is hidden, and 0
-// where the face is outside of the photo or turned away.
+// Of a view and a block: for each face what FindStretches tells, negative where the view is hidden.
 using SightRow = std::vector<float>;
 
 class QualityMap::Impl {
@@ -36,6 +35,7 @@ class QualityMap::Impl {
   // What of a block is for the making of it only.
   struct BlockState {
     Eigen::AlignedBox3d box;           // Of the faces, which may reach out of the block.
+    internal::FaceArrays faces;
     std::vector<std::uint32_t> ranks;  // Of each face: neighbours have near ones.
     std::map<PhotoId, SightRow> rows;  // Of views that have at least one value other than 0.
   };
@@ -80,6 +80,7 @@ class QualityMap::Impl {
   void RemoveBlock(const BlockId& id);
   void NoteChange(const BlockId& id, const Eigen::AlignedBox3d& box);
   void LookAnew();
+  std::map<BlockId, BlockTask> Prepare();
   std::map<BlockId, BlockTask> PlanLooks() const;
   void PlanLooksPast(PhotoId photo,
                      const internal::Sight& sight,

@@ -14,15 +14,23 @@ namespace plumb {
 namespace {
 
 using internal::ImageRect;
-using internal::PixelByPoint;
 using internal::Sight;
+using internal::SightSums;
 
 // Steps of the noise: a change of a tenth is not worth painting the whole mesh anew.
 constexpr double kNoiseStep = 1.1;
 
 // sqrt of the largest eigenvalue of the inverse of the information, from the least eigenvalue of
 // the information itself.
-float LargestSigma(const Eigen::Matrix3d& information) {
+float LargestSigma(const SightSums& sums, std::size_t face) {
+  Eigen::Matrix3d information;
+  for (Eigen::Index row = 0, entry = 0; row < 3; ++row) {
+    for (Eigen::Index column = row; column < 3; ++column, ++entry) {
+      const double value = sums.information[static_cast<std::size_t>(entry)][face];
+      information(row, column) = value;
+      information(column, row) = value;
+    }
+  }
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(information, Eigen::EigenvaluesOnly);
   const double least = solver.eigenvalues()[0];
@@ -34,7 +42,7 @@ float LargestSigma(const Eigen::Matrix3d& information) {
 }  // namespace
 
 void QualityMap::Impl::LookAnew() {
-  const std::map<BlockId, BlockTask> tasks = PlanLooks();
+  const std::map<BlockId, BlockTask> tasks = Prepare();
   std::vector<const std::pair<const BlockId, BlockTask>*> items;
   for (const auto& item : tasks) items.push_back(&item);
   std::vector<BlockOutcome> outcomes(items.size());
@@ -49,6 +57,21 @@ void QualityMap::Impl::LookAnew() {
     if (outcomes[i].is_touched) touched_blocks_.insert(id);
     for (const PhotoId photo : outcomes[i].new_rows) blocks_of_view_[photo].insert(id);
   }
+}
+
+// Plans while the trees of the occluders are built.
+std::map<BlockId, QualityMap::Impl::BlockTask> QualityMap::Impl::Prepare() {
+  std::map<BlockId, BlockTask> tasks;
+  ParallelFor(options_.num_threads, 2, 1, [&](int begin, int end) {
+    for (int part = begin; part < end; ++part) {
+      if (part == 0) {
+        occluders_.Commit();
+      } else {
+        tasks = PlanLooks();
+      }
+    }
+  });
+  return tasks;
 }
 
 std::map<BlockId, QualityMap::Impl::BlockTask> QualityMap::Impl::PlanLooks() const {
@@ -133,21 +156,9 @@ void QualityMap::Impl::MakeRow(const BlockId& id,
                                std::vector<Test>* tests,
                                BlockOutcome* outcome) {
   const std::vector<FaceShape>& shapes = blocks_.at(id).shapes;
-  SightRow row(shapes.size(), 0.0F);
-  bool is_any = false;
-  for (std::uint32_t i = 0; i < shapes.size(); ++i) {
-    const FaceShape& shape = shapes[i];
-    const Eigen::Vector3d towards_eye = look.sight->eye_in_map() - shape.center_in_map;
-    if (!(shape.normal_in_map.dot(towards_eye) > 0.0)) continue;
-    const std::optional<PixelByPoint> pixel_by_point = look.sight->Look(shape.center_in_map);
-    if (!pixel_by_point) continue;
-    const auto stretch =
-        static_cast<float>(internal::StretchOfPixel(*pixel_by_point, shape.normal_in_map));
-    if (!(stretch > 0.0F)) continue;
-    row[i] = stretch;
-    is_any = true;
-  }
-  if (!is_any) return;
+  SightRow row(shapes.size());
+  internal::FindStretches(look.sight->numbers(), states_.at(id).faces, row.data());
+  if (std::all_of(row.begin(), row.end(), [](float value) { return value == 0.0F; })) return;
   SightRow& stored = states_.at(id).rows[look.photo];
   stored = std::move(row);
   outcome->new_rows.push_back(look.photo);
@@ -185,25 +196,18 @@ bool QualityMap::Impl::Decide(const BlockId& id, const std::vector<Test>& tests)
 // Sums up the block's rows; whether something came out that was not known.
 bool QualityMap::Impl::Summarize(const BlockId& id) {
   QualityBlock& block = blocks_.at(id);
-  std::vector<FaceQuality> qualities(block.shapes.size());
-  std::vector<Eigen::Matrix3d> information(block.shapes.size(), Eigen::Matrix3d::Zero());
-  for (const auto& [photo, row] : states_.at(id).rows) {
-    const Sight& sight = sights_.at(photo);
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      if (row[i] == 0.0F) continue;
-      FaceQuality& quality = qualities[i];
-      if (row[i] < 0.0F) {
-        ++quality.num_hidden;
-        continue;
-      }
-      ++quality.num_views;
-      quality.gsd = std::min(quality.gsd, row[i]);
-      const PixelByPoint jacobian = sight.Jacobian(block.shapes[i].center_in_map);
-      information[i].noalias() += jacobian.transpose() * jacobian;
-    }
+  const BlockState& state = states_.at(id);
+  SightSums sums(block.shapes.size());
+  for (const auto& [photo, row] : state.rows) {
+    internal::AddSight(sights_.at(photo).numbers(), state.faces, row.data(), &sums);
   }
+  std::vector<FaceQuality> qualities(block.shapes.size());
   for (std::size_t i = 0; i < qualities.size(); ++i) {
-    if (qualities[i].num_views >= 2) qualities[i].sigma_per_px = LargestSigma(information[i]);
+    FaceQuality& quality = qualities[i];
+    quality.gsd = sums.least_stretch[i];
+    quality.num_views = sums.num_seen[i];
+    quality.num_hidden = sums.num_hidden[i];
+    if (quality.num_views >= 2) quality.sigma_per_px = LargestSigma(sums, i);
   }
   const bool is_new = changed_boxes_.count(id) != 0 || qualities != block.qualities;
   block.qualities = std::move(qualities);

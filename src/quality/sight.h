@@ -5,14 +5,12 @@
 #include <Eigen/Core>
 #include <array>
 #include <memory>
-#include <optional>
 
 #include "plumbline/camera/camera.h"
 #include "plumbline/geometry/rigid3.h"
+#include "quality/sight_kernel.h"
 
 namespace plumb::internal {
-
-using PixelByPoint = Eigen::Matrix<double, 2, 3>;
 
 // The part of the image plane that something may cover, in normalised undistorted coordinates.
 struct ImageRect {
@@ -47,11 +45,8 @@ class Sight {
   // False only if no point of the ball is in the photo.
   bool MayShow(const Eigen::Vector3d& center_in_map, double radius) const;
 
-  // Change of the pixel with the point in the map; nothing if the point is not in the photo.
-  std::optional<PixelByPoint> Look(const Eigen::Vector3d& point_in_map) const;
-
-  // The same for a point that is known to be in the photo.
-  PixelByPoint Jacobian(const Eigen::Vector3d& point_in_map) const;
+  // For the kernels.
+  const SightNumbers& numbers() const { return numbers_; }
 
   // What a box covers: all of the plane if it reaches behind the camera.
   ImageRect RectOf(const Eigen::Vector3d& box_min, const Eigen::Vector3d& box_max) const;
@@ -60,17 +55,11 @@ class Sight {
   Eigen::Vector3d Seen(const Eigen::Vector3d& point_in_map) const;
 
  private:
-  PixelByPoint JacobianAt(const Eigen::Vector3d& point_in_cam) const;
-
   std::shared_ptr<const Lens> lens_;
   Rigid3 cam_from_map_;
   Eigen::Matrix3d rotation_;
   Eigen::Vector3d eye_in_map_;
+  SightNumbers numbers_;
 };
-
-// The longest stretch on a plane that one pixel takes in [unit of the map per px]: the largest
-// singular value of the inverse of the change of the pixel on the plane. Infinite for a plane seen
-// from its edge.
-double StretchOfPixel(const PixelByPoint& pixel_by_point, const Eigen::Vector3d& unit_normal);
 
 }  // namespace plumb::internal
