@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kPacketSize = 16;
 constexpr unsigned kAllMasks = ~0U;
-constexpr std::int32_t kRegionBlocks = 8;  // Along each axis.
+constexpr std::int32_t kRegionBlocks = 4;  // Along each axis.
 
 // Up to sixteen rays of one block, with what the filter needs of them.
 struct Cast {

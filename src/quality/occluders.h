@@ -21,7 +21,7 @@ struct SightLine {
 };
 
 // The faces of a mesh as obstacles (Embree). Each block has a tree of its own, and blocks hang in
-// the trees of regions of eight by eight by eight: a change costs what the changed blocks and their
+// the trees of regions of four by four by four: a change costs what the changed blocks and their
 // regions hold. Embree computes in float, and no ray slips through an edge that two faces share;
 // that a face does not hide itself or a neighbour behind it is told in double. Casting is
 // thread-safe while nothing changes.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surface/labelled_cells.h"
 
+#include "image/parallel_for.h"
 #include "plumbline/common/stopwatch.h"
 #include "surface/ray_cast.h"
 
@@ -11,6 +12,9 @@ namespace {
 // Removing a vertex costs some four times as much as inserting one: beyond this share of moving
 // landmarks all of them are inserted anew.
 constexpr double kMaxShareMoved = 0.25;
+
+// Landmarks whose rays one thread casts at a time.
+constexpr int kCastsOfPart = 128;
 
 }  // namespace
 
@@ -77,23 +81,35 @@ void LabelledCells::InsertSlots(const std::vector<Slot>& slots) {
 
 void LabelledCells::Cast(const std::vector<Slot>& recast, SurfaceReport* report) {
   if (!tetrahedra_->HasCells()) return;
+  std::vector<Slot> slots;
   std::vector<char> is_cast(scene_.num_slots(), 0);
-  for (const std::vector<Slot>* slots : {&tetrahedra_->touched(), &recast}) {
-    for (const Slot slot : *slots) {
+  for (const std::vector<Slot>* some : {&tetrahedra_->touched(), &recast}) {
+    for (const Slot slot : *some) {
       if (is_cast[slot] != 0 || tetrahedra_->VertexOf(slot) == Vertex()) continue;
       is_cast[slot] = 1;
-      CastSlot(slot, report);
+      slots.push_back(slot);
     }
+  }
+  const auto num_slots = static_cast<int>(slots.size());
+  std::vector<CastPart> parts(slots.size() / kCastsOfPart + 1);
+  ParallelFor(options_.num_threads, num_slots, kCastsOfPart, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      CastSlot(slots[static_cast<std::size_t>(i)], &parts[static_cast<std::size_t>(i) / kCastsOfPart]);
+    }
+  });
+  for (const CastPart& part : parts) {
+    for (const CutNode node : part.nodes) MarkChanged(node);
+    report->num_rays_cast += part.num_rays;
   }
 }
 
-void LabelledCells::CastSlot(Slot slot, SurfaceReport* report) {
-  scene_.RaysOf(slot, &rays_);
-  CastRays(tetrahedra_->triangulation(), tetrahedra_->VertexOf(slot), rays_, &star_);
-  for (const Cell cell : star_) {
-    if (cell->info().node != kNoCutNode) MarkChanged(cell->info().node);
+void LabelledCells::CastSlot(Slot slot, CastPart* part) const {
+  scene_.RaysOf(slot, &part->rays);
+  CastRays(tetrahedra_->triangulation(), tetrahedra_->VertexOf(slot), part->rays, &part->star);
+  for (const Cell cell : part->star) {
+    if (cell->info().node != kNoCutNode) part->nodes.push_back(cell->info().node);
   }
-  report->num_rays_cast += rays_.size();
+  part->num_rays += part->rays.size();
 }
 
 void LabelledCells::ConnectCreated() {

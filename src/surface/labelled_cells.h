@@ -41,10 +41,18 @@ class LabelledCells {
   bool IsReseen(Slot slot) const { return slot < is_reseen_.size() && is_reseen_[slot] != 0; }
 
  private:
+  // What one thread finds while it casts rays.
+  struct CastPart {
+    std::vector<CutNode> nodes;  // Whose counts may have changed.
+    std::size_t num_rays = 0;
+    std::vector<SceneRay> rays;  // Of the landmark at hand, as is the star.
+    std::vector<Cell> star;
+  };
+
   void Rebuild();
   void InsertSlots(const std::vector<Slot>& slots);
   void Cast(const std::vector<Slot>& recast, SurfaceReport* report);
-  void CastSlot(Slot slot, SurfaceReport* report);
+  void CastSlot(Slot slot, CastPart* part) const;
   void ConnectCreated();
   void Weigh(SurfaceReport* report);
   bool IsChanged(CutNode node) const {
@@ -62,8 +70,6 @@ class LabelledCells {
   std::vector<Slot> redrawn_;
   std::vector<char> is_reseen_;  // By slot.
   std::vector<Slot> reseen_;
-  std::vector<SceneRay> rays_;
-  std::vector<Cell> star_;
 };
 
 }  // namespace plumb

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <limits>
 
 namespace plumb {
@@ -29,6 +28,22 @@ CGAL::Orientation SideOf(Cell cell, int i, const Point& point) {
 CGAL::Orientation SideOfRay(Cell cell, int i, const Point& camera, RaySide side) {
   const CGAL::Orientation orientation = SideOf(cell, i, camera);
   return side == RaySide::kTowardsCamera ? orientation : CGAL::opposite(orientation);
+}
+
+// CGAL marks the cells that it has visited; this does not, and may run beside others. A vertex has
+// some 25 cells.
+void FindStar(Vertex vertex, std::vector<Cell>* star) {
+  star->assign(1, vertex->cell());
+  for (std::size_t next = 0; next < star->size(); ++next) {
+    const Cell cell = (*star)[next];
+    for (int i = 0; i < 4; ++i) {
+      if (cell->vertex(i) == vertex) continue;
+      const Cell neighbor = cell->neighbor(i);
+      if (std::find(star->begin(), star->end(), neighbor) == star->end()) {
+        star->push_back(neighbor);
+      }
+    }
+  }
 }
 
 std::array<LandmarkId, 4> SortedIds(Cell cell) {
@@ -100,7 +115,7 @@ Cell FindRayCell(const Triangulation& triangulation,
     cell = next;
   }
   std::vector<Cell> star;
-  triangulation.incident_cells(vertex, std::back_inserter(star));
+  FindStar(vertex, &star);
   return FindRayCellInStar(triangulation, vertex, camera, side, star);
 }
 
@@ -108,8 +123,7 @@ void CastRays(const Triangulation& triangulation,
               Vertex vertex,
               const std::vector<SceneRay>& rays,
               std::vector<Cell>* star) {
-  star->clear();
-  triangulation.incident_cells(vertex, std::back_inserter(*star));
+  FindStar(vertex, star);
   Cell front;
   for (const Cell cell : *star) {
     if (triangulation.is_infinite(cell)) continue;

@@ -30,6 +30,7 @@ Cell FindRayCellInStar(const Triangulation& triangulation,
 
 // Counts the vertex's rays in the cells around it, in place of what was
 // counted for this vertex before. `star` becomes the cells around it, infinite ones included.
+// Thread-safe for different vertices while the triangulation stays as it is.
 void CastRays(const Triangulation& triangulation,
               Vertex vertex,
               const std::vector<SceneRay>& rays,

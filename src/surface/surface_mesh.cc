@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "image/parallel_for.h"
 #include "surface/outward_face.h"
 
 namespace plumb {
@@ -21,7 +22,10 @@ std::int32_t BlockIndex(double position, double side) {
 }  // namespace
 
 SurfaceMesh::SurfaceMesh(const SurfaceOptions& options)
-    : block_side_(options.block_side), support_(options), islands_(options.min_island_faces) {}
+    : block_side_(options.block_side),
+      num_threads_(options.num_threads),
+      support_(options),
+      islands_(options.min_island_faces) {}
 
 MeshDelta SurfaceMesh::Update(const LabelledCells& cells) {
   num_checked_ = 0;
@@ -35,9 +39,7 @@ MeshDelta SurfaceMesh::Update(const LabelledCells& cells) {
   MeshDelta delta;
   Publish(candidates, &delta);
   MarkRedrawn(cells);
-  for (const BlockId& block : dirty_blocks_) {
-    delta.blocks.push_back(MakeBlock(cells.scene(), block));
-  }
+  delta.blocks = MakeBlocks(cells.scene(), {dirty_blocks_.begin(), dirty_blocks_.end()});
   unpublished_.clear();
   added_.clear();
   touched_slots_.clear();
@@ -48,8 +50,7 @@ MeshDelta SurfaceMesh::Update(const LabelledCells& cells) {
 MeshDelta SurfaceMesh::Snapshot(const RayScene& scene) const {
   MeshDelta snapshot;
   snapshot.is_snapshot = true;
-  for (const BlockId& id : pool_.Blocks()) {
-    MeshBlock block = MakeBlock(scene, id);
+  for (MeshBlock& block : MakeBlocks(scene, pool_.Blocks())) {
     if (block.faces.empty()) continue;
     for (std::size_t i = 0; i < block.faces.size(); ++i) {
       snapshot.faces_added.push_back(block.KeyOf(i));
@@ -187,6 +188,17 @@ BlockId SurfaceMesh::BlockOf(const RayScene& scene, const FaceSlots& slots) cons
   return {BlockIndex(centroid.x(), block_side_),
           BlockIndex(centroid.y(), block_side_),
           BlockIndex(centroid.z(), block_side_)};
+}
+
+std::vector<MeshBlock> SurfaceMesh::MakeBlocks(const RayScene& scene,
+                                               const std::vector<BlockId>& ids) const {
+  std::vector<MeshBlock> blocks(ids.size());
+  ParallelFor(num_threads_, static_cast<int>(ids.size()), 1, [&](int begin, int end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      blocks[i] = MakeBlock(scene, ids[i]);
+    }
+  });
+  return blocks;
 }
 
 MeshBlock SurfaceMesh::MakeBlock(const RayScene& scene, const BlockId& id) const {

@@ -40,11 +40,13 @@ class SurfaceMesh {
   void AddFace(const RayScene& scene, std::uint32_t arc, const FaceSlots& slots);
   void MoveRedrawn(const LabelledCells& cells);
   void MarkRedrawn(const LabelledCells& cells);
+  std::vector<MeshBlock> MakeBlocks(const RayScene& scene, const std::vector<BlockId>& ids) const;
   void Publish(const std::vector<FaceIdx>& faces, MeshDelta* delta);
   BlockId BlockOf(const RayScene& scene, const FaceSlots& slots) const;
   MeshBlock MakeBlock(const RayScene& scene, const BlockId& id) const;
 
   double block_side_;  // In map units.
+  int num_threads_;
   FaceSupport support_;
   IslandFinder islands_;
   FacePool pool_;

@@ -44,6 +44,9 @@ struct SurfaceOptions {
   // metre: the first two cameras are one unit apart.
   double block_side = 1.0;
 
+  // Threads of one step; 0: one for each core. Does not change the result.
+  int num_threads = 0;
+
   // One message per violated bound; empty if the options are usable.
   std::vector<std::string> Problems() const;
 };
@@ -60,6 +63,7 @@ void VisitFields(SurfaceOptions& options, Visitor&& visit) {
   visit("max_edge_ratio", options.max_edge_ratio);
   visit("min_island_faces", options.min_island_faces);
   visit("block_side", options.block_side);
+  visit("num_threads", options.num_threads);
 }
 
 }  // namespace plumb
