@@ -34,7 +34,7 @@ class QualityMap::Impl {
  private:
   // What of a block is for the making of it only.
   struct BlockState {
-    Eigen::AlignedBox3d box;           // Of the faces, which may reach out of the block.
+    Eigen::AlignedBox3d box;  // Of the faces, which may reach out of the block.
     internal::FaceArrays faces;
     std::vector<std::uint32_t> ranks;  // Of each face: neighbours have near ones.
     std::map<PhotoId, SightRow> rows;  // Of views that have at least one value other than 0.

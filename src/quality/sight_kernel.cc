@@ -31,8 +31,10 @@ PLUMB_SIMD_INLINE double Rotated(const SightNumbers& s, int row, double x, doubl
   return r[0] * x + r[1] * y + r[2] * z;
 }
 
-PLUMB_SIMD_INLINE FaceInCam
-CenterInCam(const SightNumbers& s, double center_x, double center_y, double center_z) {
+PLUMB_SIMD_INLINE FaceInCam CenterInCam(const SightNumbers& s,
+                                        double center_x,
+                                        double center_y,
+                                        double center_z) {
   FaceInCam face{};
   face.z = Rotated(s, 2, center_x, center_y, center_z) + s.translation[2];
   const double inverse_z = 1.0 / face.z;

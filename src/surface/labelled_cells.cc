@@ -94,7 +94,8 @@ void LabelledCells::Cast(const std::vector<Slot>& recast, SurfaceReport* report)
   std::vector<CastPart> parts(slots.size() / kCastsOfPart + 1);
   ParallelFor(options_.num_threads, num_slots, kCastsOfPart, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
-      CastSlot(slots[static_cast<std::size_t>(i)], &parts[static_cast<std::size_t>(i) / kCastsOfPart]);
+      CastSlot(slots[static_cast<std::size_t>(i)],
+               &parts[static_cast<std::size_t>(i) / kCastsOfPart]);
     }
   });
   for (const CastPart& part : parts) {

@@ -55,9 +55,7 @@ class LabelledCells {
   void CastSlot(Slot slot, CastPart* part) const;
   void ConnectCreated();
   void Weigh(SurfaceReport* report);
-  bool IsChanged(CutNode node) const {
-    return node < is_changed_.size() && is_changed_[node] != 0;
-  }
+  bool IsChanged(CutNode node) const { return node < is_changed_.size() && is_changed_[node] != 0; }
   void MarkChanged(CutNode node);
   void MarkReseen(const SceneChanges& changes);
 

@@ -55,7 +55,7 @@ class SurfaceMesh {
 
   // Of the update under way.
   std::map<FaceKey, BlockId> unpublished_;  // Were in the mesh that was last sent.
-  std::vector<FaceIdx> detached_;  // Some of them attached again.
+  std::vector<FaceIdx> detached_;           // Some of them attached again.
   std::vector<FaceIdx> added_;
   std::vector<Slot> touched_slots_;
   std::set<BlockId> dirty_blocks_;

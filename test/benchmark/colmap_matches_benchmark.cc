@@ -46,13 +46,15 @@ std::vector<Pair> ReadPairs(const std::string& path) {
 
 std::map<std::string, DescriptorMatrix> ReadDescriptors(const std::string& path) {
   sqlite::Database database(path, sqlite::Access::kRead);
-  sqlite::Statement select(
-      &database, "SELECT name, rows, data FROM descriptors JOIN images USING (image_id)");
+  sqlite::Statement select(&database,
+                           "SELECT name, rows, data FROM descriptors JOIN images USING (image_id)");
   std::map<std::string, DescriptorMatrix> found;
   for (select.Start(); select.Step();) {
     const sqlite::Blob bytes = select.Bytes(2);
-    found[select.Text(0)] = Eigen::Map<const DescriptorMatrix>(
-        static_cast<const std::uint8_t*>(bytes.data), select.Int(1), DescriptorMatrix::ColsAtCompileTime);
+    found[select.Text(0)] =
+        Eigen::Map<const DescriptorMatrix>(static_cast<const std::uint8_t*>(bytes.data),
+                                           select.Int(1),
+                                           DescriptorMatrix::ColsAtCompileTime);
   }
   return found;
 }
