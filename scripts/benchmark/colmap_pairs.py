@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The Plumbline authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which photos COLMAP is to match: each with those taken nearest to it, by the GPS in their EXIF that its
-feature extractor left in the database. Of all pairs, those of photos with nothing in common are
-most."""
+"""Which photos COLMAP is to match: each with those taken nearest to it, by the GPS in their EXIF
+that its feature extractor left in the database. Of all pairs, those of photos with nothing in
+common are most."""
 import math
 import sqlite3
 

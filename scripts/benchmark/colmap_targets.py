@@ -50,9 +50,9 @@ def steps(flight, work):
     model, values = colmap_camera(WrongCamera(flight))
     database, matches = os.path.join(work, "database.db"), os.path.join(work, "matches.txt")
     photos = os.path.join(work, "photos")
-    # The features asked for are the largest: none is of the doubled photo, whose search takes most of the
-    # time. COLMAP's matcher would take days for all rows. Lens and its distortion are refined, as
-    # ours; COLMAP's default keeps the principal point.
+    # The features asked for are the largest: none is of the doubled photo, whose search takes most
+    # of the time. COLMAP's own matcher takes some ten hours for all rows. Lens and its distortion
+    # are refined, as ours; COLMAP's default keeps the principal point.
     yield "extract", ["colmap", "feature_extractor", "--database_path", database,
                       "--image_path", photos, "--ImageReader.single_camera", "1",
                       "--ImageReader.camera_model", model,

@@ -3,8 +3,8 @@
 """Section: how soon RViz shows that one block of a large mesh has changed.
 
 A wall of 231 blocks with 1000 triangles each, as the mesher sends them, in RViz as
-launch/rviz.launch starts it, on a virtual display. Its middle block changes colour; the time runs from the
-message until the colour is on the screen.
+launch/rviz.launch starts it, on a virtual display. Its middle block changes colour; the time runs
+from the message until the colour is on the screen.
 """
 import os
 import random

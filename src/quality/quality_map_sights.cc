@@ -62,13 +62,11 @@ void QualityMap::Impl::LookAnew() {
 // Plans while the trees of the occluders are built.
 std::map<BlockId, QualityMap::Impl::BlockTask> QualityMap::Impl::Prepare() {
   std::map<BlockId, BlockTask> tasks;
-  ParallelFor(options_.num_threads, 2, 1, [&](int begin, int end) {
-    for (int part = begin; part < end; ++part) {
-      if (part == 0) {
-        occluders_.Commit();
-      } else {
-        tasks = PlanLooks();
-      }
+  ParallelFor(options_.num_threads, 2, 1, [&](int part, int /*end*/) {
+    if (part == 0) {
+      occluders_.Commit();
+    } else {
+      tasks = PlanLooks();
     }
   });
   return tasks;

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "image/simd.h"
+#include "plumbline/common/check.h"
 
 namespace plumb::internal {
 namespace {
@@ -43,7 +43,8 @@ PLUMB_SIMD_INLINE FaceInCam CenterInCam(const SightNumbers& s,
   return face;
 }
 
-// Distort and ProjectToPixel (camera/projection.h) and their derivative.
+// Distort and ProjectToPixel (camera/projection.h) and their derivative, written again because a
+// loop that calls a function is no vector code.
 PLUMB_SIMD_INLINE Projection Project(const LensParameters<double>& lens, const FaceInCam& p) {
   const double r2 = p.x * p.x + p.y * p.y;
   const double numerator = 1.0 + r2 * (lens[kK1] + r2 * (lens[kK2] + r2 * lens[kK3]));
@@ -241,10 +242,14 @@ SightSums::SightSums(std::size_t num_faces)
   for (std::vector<double>& entry : information) entry.resize(num_faces, 0.0);
 }
 
-void FindStretches(const SightNumbers& sight, const FaceArrays& faces, float* stretches) {
+void FindStretches(const SightNumbers& sight,
+                   const FaceArrays& faces,
+                   float* stretches,
+                   SimdLevel level) {
+  PLUMB_CHECK(level <= DetectSimdLevel());
 #if defined(__x86_64__)
-  if (DetectSimdLevel() == SimdLevel::kAvx512) return FindStretchesAvx512(sight, faces, stretches);
-  if (DetectSimdLevel() == SimdLevel::kAvx2) return FindStretchesAvx2(sight, faces, stretches);
+  if (level == SimdLevel::kAvx512) return FindStretchesAvx512(sight, faces, stretches);
+  if (level == SimdLevel::kAvx2) return FindStretchesAvx2(sight, faces, stretches);
 #endif
   FindStretchesBody(sight, faces, stretches);
 }
@@ -252,10 +257,12 @@ void FindStretches(const SightNumbers& sight, const FaceArrays& faces, float* st
 void AddSight(const SightNumbers& sight,
               const FaceArrays& faces,
               const float* stretches,
-              SightSums* sums) {
+              SightSums* sums,
+              SimdLevel level) {
+  PLUMB_CHECK(level <= DetectSimdLevel());
 #if defined(__x86_64__)
-  if (DetectSimdLevel() == SimdLevel::kAvx512) return AddSightAvx512(sight, faces, stretches, sums);
-  if (DetectSimdLevel() == SimdLevel::kAvx2) return AddSightAvx2(sight, faces, stretches, sums);
+  if (level == SimdLevel::kAvx512) return AddSightAvx512(sight, faces, stretches, sums);
+  if (level == SimdLevel::kAvx2) return AddSightAvx2(sight, faces, stretches, sums);
 #endif
   AddSightBody(sight, faces, stretches, sums);
 }

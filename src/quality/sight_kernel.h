@@ -4,8 +4,10 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
+#include "image/simd.h"
 #include "plumbline/camera/projection.h"
 #include "plumbline/quality/quality_block.h"
 
@@ -33,12 +35,15 @@ struct SightNumbers {
   double height_px = 0.0;
 };
 
-// J, the derivative of the pixel with the point, is 2 x 3; distortion is in it.
-
 // For each face the longest stretch on its plane that one pixel takes in [map units per px]: the
-// inverse of the least singular value of J on the plane. 0 if the face's centre is outside of the
+// inverse of the least singular value of J on the plane, J being the derivative of the pixel with
+// the point, 2 x 3, distortion included. 0 if the face's centre is outside of the
 // photo or the face is turned away. `stretches` has room for all faces.
-void FindStretches(const SightNumbers& sight, const FaceArrays& faces, float* stretches);
+// `level`, here and below, must be one that this processor has; all give the same bits.
+void FindStretches(const SightNumbers& sight,
+                   const FaceArrays& faces,
+                   float* stretches,
+                   SimdLevel level = DetectSimdLevel());
 
 // Sums over the photos that show a face.
 struct SightSums {
@@ -56,6 +61,7 @@ struct SightSums {
 void AddSight(const SightNumbers& sight,
               const FaceArrays& faces,
               const float* stretches,
-              SightSums* sums);
+              SightSums* sums,
+              SimdLevel level = DetectSimdLevel());
 
 }  // namespace plumb::internal

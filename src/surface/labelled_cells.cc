@@ -93,10 +93,8 @@ void LabelledCells::Cast(const std::vector<Slot>& recast, SurfaceReport* report)
   const auto num_slots = static_cast<int>(slots.size());
   std::vector<CastPart> parts(slots.size() / kCastsOfPart + 1);
   ParallelFor(options_.num_threads, num_slots, kCastsOfPart, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) {
-      CastSlot(slots[static_cast<std::size_t>(i)],
-               &parts[static_cast<std::size_t>(i) / kCastsOfPart]);
-    }
+    CastPart* part = &parts[static_cast<std::size_t>(begin / kCastsOfPart)];
+    for (int i = begin; i < end; ++i) CastSlot(slots[static_cast<std::size_t>(i)], part);
   });
   for (const CastPart& part : parts) {
     for (const CutNode node : part.nodes) MarkChanged(node);

@@ -24,8 +24,6 @@ class LabelledCells {
 
   void Apply(const MapDelta& delta, SurfaceReport* report);
 
-  // Infinite cells are free.
-  bool IsFree(Cell cell) const { return plumb::IsFree(cut_, cell); }
   std::int64_t Energy() const;
 
   const RayScene& scene() const { return scene_; }

@@ -17,7 +17,6 @@
 #include <map>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "image/parallel_for.h"
@@ -39,6 +38,7 @@ struct Pair {
 
 std::vector<Pair> ReadPairs(const std::string& path) {
   std::ifstream file(path);
+  if (!file) throw std::runtime_error(path + ": cannot be read");
   std::vector<Pair> pairs;
   for (Pair pair; file >> pair.name1 >> pair.name2;) pairs.push_back(pair);
   return pairs;
@@ -86,7 +86,6 @@ void Run(const std::string& database_path,
   const std::map<std::string, DescriptorMatrix> descriptors = ReadDescriptors(database_path);
   const std::vector<Pair> pairs = ReadPairs(pairs_path);
   std::ofstream file(matches_path);
-  const auto num_threads = static_cast<int>(std::thread::hardware_concurrency());
   for (std::size_t first = 0; first < pairs.size(); first += kBatch) {
     std::vector<std::vector<FeatureMatch>> found(std::min(kBatch, pairs.size() - first));
     const auto match_some = [&](int begin, int end) {
@@ -95,7 +94,7 @@ void Run(const std::string& database_path,
         found[i] = Match(descriptors.at(pair.name1), descriptors.at(pair.name2));
       }
     };
-    ParallelFor(num_threads, static_cast<int>(found.size()), 1, match_some);
+    ParallelFor(0, static_cast<int>(found.size()), 1, match_some);
     for (std::size_t i = 0; i < found.size(); ++i) Write(pairs[first + i], found[i], &file);
     std::printf("%zu of %zu pairs\n", first + found.size(), pairs.size());
   }

@@ -109,7 +109,7 @@ inline LabelOfCell LabelsById(const LabelledCells& cells) {
     std::array<LandmarkId, 4> ids;
     for (int i = 0; i < 4; ++i) ids[static_cast<std::size_t>(i)] = cell->vertex(i)->info().id;
     std::sort(ids.begin(), ids.end());
-    labels[ids] = cells.IsFree(cell);
+    labels[ids] = IsFree(cells.cut(), cell);
   }
   return labels;
 }

@@ -63,6 +63,35 @@ TEST(SurfaceMesher, HasTheSameMeshWhetherRestartedOrNot) {
   EXPECT_GT(max_num_faces, 50U);
 }
 
+TEST(SurfaceMesher, HasTheSameMeshWithAnyNumberOfThreads) {
+  RandomMap::Options options;
+  options.num_landmarks = 1000;  // So many that each thread has some.
+  options.num_views = 12;
+  options.num_changes = 200;
+  options.seed = 8;
+  RandomMap map(options);
+  SurfaceOptions surface = SmallOptions();
+  surface.alpha_occ = 256;
+  surface.num_threads = 1;
+  SurfaceMesher alone(surface);
+  surface.num_threads = 4;
+  SurfaceMesher shared(surface);
+  int num_large = 0;  // Steps with landmarks for several threads.
+  for (int step = 0; step < 40; ++step) {
+    const auto expected = alone.Apply(map.delta());
+    const auto update = shared.Apply(map.delta());
+    ASSERT_TRUE(expected && update);
+    if (update->report.num_rays_cast > 1000) ++num_large;
+    EXPECT_EQ(update->report.num_rays_cast, expected->report.num_rays_cast);
+    EXPECT_EQ(update->mesh.blocks, expected->mesh.blocks);
+    EXPECT_EQ(update->mesh.faces_added, expected->mesh.faces_added);
+    EXPECT_EQ(update->mesh.faces_removed, expected->mesh.faces_removed);
+    map.Change();
+  }
+  EXPECT_GE(num_large, 20);
+  EXPECT_GT(alone.Snapshot().faces_added.size(), 300U);
+}
+
 TEST(SurfaceMesher, GoesOnAfterARestartAsIfThereHadBeenNone) {
   RandomMap map({/*num_landmarks=*/80, /*num_views=*/8, /*num_changes=*/5, /*seed=*/6});
   SurfaceMesher mesher(SmallOptions());
