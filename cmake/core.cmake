@@ -112,7 +112,8 @@ set_tests_properties(tools_test PROPERTIES COST 100)  # The longest: first of th
 plumb_module_test(quality plumb_quality plumb_simulation)  # Whose facades are true meshes.
 target_link_libraries(surface_test PRIVATE CGAL::CGAL PkgConfig::MAXFLOW)
 
-# Timing programs: test/benchmark/*_benchmark.cc.
+# Timing programs: test/benchmark/*_benchmark.cc as <name>_benchmark. `benchmarks` builds them.
+add_custom_target(benchmarks)
 find_package(benchmark QUIET)
 find_package(OpenCV QUIET OPTIONAL_COMPONENTS aruco)
 pkg_check_modules(APRILTAG QUIET IMPORTED_TARGET apriltag)
@@ -121,6 +122,7 @@ if(benchmark_FOUND AND APRILTAG_FOUND AND TARGET opencv_aruco)
   foreach(source ${benchmark_sources})
     get_filename_component(name ${source} NAME_WE)
     add_executable(${name} EXCLUDE_FROM_ALL ${source})
+    add_dependencies(benchmarks ${name})
     target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/src)
     target_compile_definitions(${name} PRIVATE PLUMBLINE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
     target_link_libraries(${name} PRIVATE plumb_evaluation plumb_simulation benchmark::benchmark)

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-FileCopyrightText: 2026 The Plumbline authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Checks layers, licences, format, the generated pages and clang-tidy. The argument is the build folder.
+# Checks layers, licences, format, the generated pages, that the benchmarks compile, and clang-tidy. The argument is the build folder.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 build=${1:?the build folder}
@@ -25,6 +25,8 @@ done
 scripts/format.sh --dry-run -Werror || fail "unformatted sources; run make format"
 "$build/list_parameters" >/dev/null && scripts/parameters_doc.py --check "$build/list_parameters" ||
   fail "docs/parameters.md"
+
+cmake --build "$build" -j"$(nproc)" --target benchmarks >/dev/null || fail "the benchmarks"
 
 mkdir -p "$build/lint"
 cmake -S . -B "$build/lint" -DPLUMBLINE_BUILD_ROS=OFF -DCMAKE_EXPORT_COMPILE_COMMANDS=ON >/dev/null ||
