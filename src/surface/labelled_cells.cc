@@ -16,6 +16,9 @@ constexpr double kMaxShareMoved = 0.25;
 // Landmarks whose rays one thread casts at a time.
 constexpr int kCastsOfPart = 128;
 
+// Cells that one thread weighs at a time.
+constexpr int kWeightsOfPart = 1024;
+
 }  // namespace
 
 LabelledCells::LabelledCells(const SurfaceOptions& options)
@@ -98,15 +101,22 @@ void LabelledCells::Cast(const std::vector<Slot>& recast, SurfaceReport* report)
   });
   for (const CastPart& part : parts) {
     for (const CutNode node : part.nodes) MarkChanged(node);
+    tetrahedra_->AddNodes(part.new_cells);
     report->num_rays_cast += part.num_rays;
   }
+  tetrahedra_->MeasureSpheres(options_.num_threads);
 }
 
 void LabelledCells::CastSlot(Slot slot, CastPart* part) const {
   scene_.RaysOf(slot, &part->rays);
-  CastRays(tetrahedra_->triangulation(), tetrahedra_->VertexOf(slot), part->rays, &part->star);
+  const Triangulation& triangulation = tetrahedra_->triangulation();
+  CastRays(triangulation, tetrahedra_->VertexOf(slot), part->rays, &part->star);
   for (const Cell cell : part->star) {
-    if (cell->info().node != kNoCutNode) part->nodes.push_back(cell->info().node);
+    if (cell->info().node != kNoCutNode) {
+      part->nodes.push_back(cell->info().node);
+    } else if (!triangulation.is_infinite(cell)) {
+      part->new_cells.push_back(cell);
+    }
   }
   part->num_rays += part->rays.size();
 }
@@ -114,7 +124,6 @@ void LabelledCells::CastSlot(Slot slot, CastPart* part) const {
 void LabelledCells::ConnectCreated() {
   for (const CutNode node : tetrahedra_->created()) {
     const Cell cell = tetrahedra_->CellOf(node);
-    if (cell == Cell()) continue;
     for (int i = 0; i < 4; ++i) {
       const Cell neighbor = cell->neighbor(i);
       const CutNode other = neighbor->info().node;
@@ -130,18 +139,39 @@ void LabelledCells::Weigh(SurfaceReport* report) {
        {&tetrahedra_->created(), &tetrahedra_->destroyed(), &tetrahedra_->bereft()}) {
     for (const CutNode node : *nodes) MarkChanged(node);
   }
-  for (const CutNode node : changed_nodes_) {
-    const Cell cell = tetrahedra_->CellOf(node);
-    if (cell == Cell()) continue;
+  std::vector<CellWeights> weights(changed_nodes_.size());
+  ParallelFor(options_.num_threads,
+              static_cast<int>(weights.size()),
+              kWeightsOfPart,
+              [&](int begin, int end) {
+                for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end);
+                     ++i) {
+                  weights[i] = WeightsOf(changed_nodes_[i]);
+                }
+              });
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const CutNode node = changed_nodes_[i];
+    if (tetrahedra_->CellOf(node) == Cell()) continue;
     ++report->num_cells_changed;
-    cut_.SetTerminal(node, TerminalOf(options_, tetrahedra_->triangulation(), cell));
-    for (std::uint32_t i = 0; i < DynamicCut::kDegree; ++i) {
-      const CutNode neighbor = cut_.NeighborOf(node, i);
-      if (neighbor == kNoCutNode) continue;
-      if (IsChanged(neighbor) && neighbor < node) continue;  // It does it.
-      cut_.SetCapacity(node, i, FaceWeightOf(options_, cell, static_cast<int>(i)));
+    cut_.SetTerminal(node, weights[i].terminal);
+    for (std::uint32_t k = 0; k < DynamicCut::kDegree; ++k) {
+      if (weights[i].faces[k]) cut_.SetCapacity(node, k, *weights[i].faces[k]);
     }
   }
+}
+
+// Of a face between two changed cells, with one of them.
+LabelledCells::CellWeights LabelledCells::WeightsOf(CutNode node) const {
+  CellWeights weights;
+  const Cell cell = tetrahedra_->CellOf(node);
+  if (cell == Cell()) return weights;
+  weights.terminal = TerminalOf(options_, tetrahedra_->triangulation(), cell);
+  for (std::uint32_t k = 0; k < DynamicCut::kDegree; ++k) {
+    const CutNode neighbor = cut_.NeighborOf(node, k);
+    if (neighbor == kNoCutNode || (IsChanged(neighbor) && neighbor < node)) continue;
+    weights.faces[k] = FaceWeightOf(options_, cell, static_cast<int>(k));
+  }
+  return weights;
 }
 
 void LabelledCells::MarkChanged(CutNode node) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "plumbline/map/map_delta.h"
@@ -41,10 +42,16 @@ class LabelledCells {
  private:
   // What one thread finds while it casts rays.
   struct CastPart {
-    std::vector<CutNode> nodes;  // Whose counts may have changed.
+    std::vector<CutNode> nodes;   // Whose counts may have changed.
+    std::vector<Cell> new_cells;  // They have no node yet.
     std::size_t num_rays = 0;
     std::vector<SceneRay> rays;  // Of the landmark at hand, as is the star.
     std::vector<Cell> star;
+  };
+
+  struct CellWeights {
+    std::int32_t terminal = 0;
+    std::array<std::optional<std::int32_t>, DynamicCut::kDegree> faces;  // To be set.
   };
 
   void Rebuild();
@@ -53,6 +60,7 @@ class LabelledCells {
   void CastSlot(Slot slot, CastPart* part) const;
   void ConnectCreated();
   void Weigh(SurfaceReport* report);
+  CellWeights WeightsOf(CutNode node) const;
   bool IsChanged(CutNode node) const { return node < is_changed_.size() && is_changed_[node] != 0; }
   void MarkChanged(CutNode node);
   void MarkReseen(const SceneChanges& changes);

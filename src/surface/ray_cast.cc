@@ -30,18 +30,54 @@ CGAL::Orientation SideOfRay(Cell cell, int i, const Point& camera, RaySide side)
   return side == RaySide::kTowardsCamera ? orientation : CGAL::opposite(orientation);
 }
 
-// CGAL marks the cells that it has visited; this does not, and may run beside others. A vertex has
-// some 25 cells.
+// Cells by their addresses, with open addressing: a vertex has some 25, seldom more than fit.
+class CellSet {
+ public:
+  // Whether it is new.
+  bool Insert(Cell cell) {
+    if (2 * (size_ + 1) > table_.size()) Grow();
+    const bool is_new = Put(cell);
+    size_ += is_new ? 1 : 0;
+    return is_new;
+  }
+
+ private:
+  bool Put(Cell cell) {
+    const auto address = reinterpret_cast<std::uintptr_t>(&*cell);
+    const std::size_t mask = table_.size() - 1;
+    // Fibonacci hashing (Knuth, volume 3, 6.4).
+    std::size_t place = (address * 0x9E3779B97F4A7C15ULL) >> 32U & mask;
+    while (table_[place] != Cell()) {
+      if (table_[place] == cell) return false;
+      place = (place + 1) & mask;
+    }
+    table_[place] = cell;
+    return true;
+  }
+
+  void Grow() {
+    std::vector<Cell> before(2 * table_.size());
+    before.swap(table_);
+    for (const Cell cell : before) {
+      if (cell != Cell()) Put(cell);
+    }
+  }
+
+  std::vector<Cell> table_ = std::vector<Cell>(128);
+  std::size_t size_ = 0;
+};
+
+// CGAL marks the cells that it has visited; this does not, and may run beside others.
 void FindStar(Vertex vertex, std::vector<Cell>* star) {
+  CellSet known;
   star->assign(1, vertex->cell());
+  known.Insert(vertex->cell());
   for (std::size_t next = 0; next < star->size(); ++next) {
     const Cell cell = (*star)[next];
     for (int i = 0; i < 4; ++i) {
       if (cell->vertex(i) == vertex) continue;
       const Cell neighbor = cell->neighbor(i);
-      if (std::find(star->begin(), star->end(), neighbor) == star->end()) {
-        star->push_back(neighbor);
-      }
+      if (known.Insert(neighbor)) star->push_back(neighbor);
     }
   }
 }

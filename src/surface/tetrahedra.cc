@@ -10,10 +10,13 @@
 #include <iterator>
 #include <numeric>
 
+#include "image/parallel_for.h"
 #include "surface/sphere_angles.h"
 
 namespace plumb {
 namespace {
+
+constexpr int kSpheresOfPart = 512;
 
 Eigen::Vector3d ToEigen(const SurfaceKernel::Point_3& point) {
   return {point.x(), point.y(), point.z()};
@@ -95,9 +98,6 @@ void Tetrahedra::InsertOne(const Place& place) {
   vertex->info() = {place.slot, place.id};
   vertices_[place.slot] = vertex;
   Touch(vertex);
-  std::vector<Cell> incident;
-  triangulation_.incident_cells(vertex, std::back_inserter(incident));
-  for (const Cell cell : incident) Create(cell);
   hint_ = vertex->cell();
 }
 
@@ -110,10 +110,6 @@ void Tetrahedra::InsertFlat(const Place& place) {
   vertices_[place.slot] = vertex;
   hint_ = vertex->cell();
   if (!HasCells()) return;
-  for (auto it = triangulation_.finite_cells_begin(); it != triangulation_.finite_cells_end();
-       ++it) {
-    Create(it);
-  }
   for (const Vertex touched : triangulation_.finite_vertex_handles()) Touch(touched);
 }
 
@@ -131,10 +127,7 @@ void Tetrahedra::RemoveOne(Slot slot) {
     for (int k = 0; k < 4; ++k) Touch(cell->vertex(k));
     Destroy(cell);
   }
-  std::vector<Cell> created;
-  triangulation_.remove_and_give_new_cells(vertex, std::back_inserter(created));
-  if (!HasCells()) return;
-  for (const Cell cell : created) Create(cell);
+  triangulation_.remove(vertex);
 }
 
 void Tetrahedra::Destroy(Cell cell) {
@@ -150,15 +143,25 @@ void Tetrahedra::Destroy(Cell cell) {
   cell->info().node = kNoCutNode;
 }
 
-void Tetrahedra::Create(Cell cell) {
-  if (triangulation_.is_infinite(cell)) return;
-  const CutNode node = cut_->AddNode();
-  if (cells_.size() <= node) cells_.resize(node + 1);
-  cells_[node] = cell;
-  cell->info() = CellInfo();
-  cell->info().node = node;
-  cell->info().sphere_cosines = SphereCosinesOf(cell);
-  created_.push_back(node);
+void Tetrahedra::AddNodes(const std::vector<Cell>& cells) {
+  for (const Cell cell : cells) {
+    if (cell->info().node != kNoCutNode) continue;
+    const CutNode node = cut_->AddNode();
+    if (cells_.size() <= node) cells_.resize(node + 1);
+    cells_[node] = cell;
+    cell->info().node = node;
+    created_.push_back(node);
+  }
+}
+
+void Tetrahedra::MeasureSpheres(int num_threads) {
+  ParallelFor(
+      num_threads, static_cast<int>(created_.size()), kSpheresOfPart, [&](int begin, int end) {
+        for (int i = begin; i < end; ++i) {
+          const Cell cell = CellOf(created_[static_cast<std::size_t>(i)]);
+          cell->info().sphere_cosines = SphereCosinesOf(cell);
+        }
+      });
 }
 
 void Tetrahedra::Touch(Vertex vertex) {

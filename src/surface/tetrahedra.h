@@ -51,7 +51,7 @@ inline SurfaceKernel::Point_3 ToCgal(const Eigen::Vector3d& point) {
 
 // Delaunay tetrahedra between the places of landmarks. Predicates are exact and cospherical
 // points perturbed by their coordinates (Devillers and Teillaud, SODA 2003): the same points give
-// the same tetrahedra in whatever order they came. Every finite cell has a node of the cut, whose
+// the same tetrahedra in whatever order they came. Every finite cell gets a node of the cut, whose
 // slots are the cell's four faces. With fewer than four points, or all in one plane, there is no
 // cell.
 class Tetrahedra {
@@ -76,7 +76,14 @@ class Tetrahedra {
   bool HasCells() const { return triangulation_.dimension() == 3; }
   const Triangulation& triangulation() const { return triangulation_; }
 
-  // What changed since the last ClearChanges; a node or slot may be named that is gone again.
+  // After changes: gives nodes to those of the finite cells that have none. Each new cell is around
+  // a touched vertex, and is to be named. Most cells that come while vertices come and go are gone
+  // again by then.
+  void AddNodes(const std::vector<Cell>& cells);
+  // Then: the angles of the cells that got nodes.
+  void MeasureSpheres(int num_threads);
+
+  // What changed since the last ClearChanges; a touched slot or a bereft node may be gone again.
   const std::vector<Slot>& touched() const { return touched_; }  // Other incident cells.
   const std::vector<CutNode>& created() const { return created_; }
   const std::vector<CutNode>& destroyed() const { return destroyed_; }
@@ -88,7 +95,6 @@ class Tetrahedra {
   void RemoveOne(Slot slot);
   void InsertFlat(const Place& place);
   void Destroy(Cell cell);
-  void Create(Cell cell);
   void Touch(Vertex vertex);
 
   DynamicCut* cut_;
