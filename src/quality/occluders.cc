@@ -7,6 +7,8 @@
 #include <array>
 #include <utility>
 
+#include "image/parallel_for.h"
+
 namespace plumb::internal {
 namespace {
 
@@ -121,14 +123,24 @@ Occluders::Region* Occluders::EnsureRegion(const BlockId& id) {
   return &region;
 }
 
-void Occluders::Set(const MeshBlock& block) {
-  Remove(block.id);
-  if (block.faces.empty()) return;
-  const EmbreeGeometry geometry = GeometryOf(device_, block);
-  const BlockId region_id = RegionOf(block.id);
-  Region* region = EnsureRegion(region_id);
-  region->geometry_of_block[block.id] = rtcAttachGeometry(region->scene.get(), geometry.get());
-  changed_regions_.insert(region_id);
+void Occluders::Set(const std::vector<const MeshBlock*>& blocks, int num_threads) {
+  std::vector<EmbreeGeometry> geometries(blocks.size());
+  ParallelFor(num_threads, static_cast<int>(blocks.size()), 1, [&](int begin, int end) {
+    for (std::size_t i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      if (!blocks[i]->faces.empty()) geometries[i] = GeometryOf(device_, *blocks[i]);
+    }
+  });
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    Remove(blocks[i]->id);
+    if (geometries[i]) Attach(blocks[i]->id, geometries[i]);
+  }
+}
+
+void Occluders::Attach(const BlockId& block, const EmbreeGeometry& geometry) {
+  const BlockId id = RegionOf(block);
+  Region* region = EnsureRegion(id);
+  region->geometry_of_block[block] = rtcAttachGeometry(region->scene.get(), geometry.get());
+  NoteChange(id, region);
 }
 
 void Occluders::Remove(const BlockId& id) {
@@ -139,19 +151,29 @@ void Occluders::Remove(const BlockId& id) {
   if (found == region->second.geometry_of_block.end()) return;
   rtcDetachGeometry(region->second.scene.get(), found->second);
   region->second.geometry_of_block.erase(found);
-  changed_regions_.insert(region_id);
+  NoteChange(region_id, &region->second);
+}
+
+void Occluders::NoteChange(const BlockId& id, Region* region) {
+  if (!region->is_changed) changed_regions_.push_back(id);
+  region->is_changed = true;
+}
+
+void Occluders::CommitRegion(std::size_t index) const {
+  const Region& region = regions_.at(changed_regions_[index]);
+  if (!region.geometry_of_block.empty()) rtcCommitScene(region.scene.get());
 }
 
 void Occluders::Commit() {
   for (const BlockId& id : std::exchange(changed_regions_, {})) {
     Region& region = regions_.at(id);
+    region.is_changed = false;
     if (region.geometry_of_block.empty()) {
       rtcDetachGeometry(scene_.get(), region.instance_id);
       regions_.erase(id);
-      continue;
+    } else {
+      rtcCommitGeometry(region.instance.get());
     }
-    rtcCommitScene(region.scene.get());
-    rtcCommitGeometry(region.instance.get());
   }
   rtcCommitScene(scene_.get());
 }

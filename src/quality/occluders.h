@@ -32,12 +32,15 @@ class Occluders {
   Occluders(const Occluders&) = delete;
   Occluders& operator=(const Occluders&) = delete;
 
-  // `block` must stay where it is, unchanged, until it is set again or removed. Faces with a corner
-  // that is not finite hide nothing.
-  void Set(const MeshBlock& block);
+  // Each block must stay where it is, unchanged, until it is set again or removed. Faces with a
+  // corner that is not finite hide nothing.
+  void Set(const std::vector<const MeshBlock*>& blocks, int num_threads);
   void Remove(const BlockId& id);
 
-  // After changes, before casting.
+  // After changes, before casting: first each changed region, at the same time if that suits, then
+  // the whole.
+  std::size_t num_changed_regions() const { return changed_regions_.size(); }
+  void CommitRegion(std::size_t index) const;
   void Commit();
 
   // For each line of a block: 1 if a face other than its own lies between, else 0. Quick if lines
@@ -50,15 +53,18 @@ class Occluders {
     EmbreeGeometry instance;  // Of `scene` in the scene of all.
     unsigned instance_id = 0;
     std::map<BlockId, unsigned> geometry_of_block;
+    bool is_changed = false;
   };
 
   static BlockId RegionOf(const BlockId& block);
+  void Attach(const BlockId& block, const EmbreeGeometry& geometry);
   Region* EnsureRegion(const BlockId& id);
+  void NoteChange(const BlockId& id, Region* region);
 
   EmbreeDevice device_;
   EmbreeScene scene_;
   std::map<BlockId, Region> regions_;
-  std::set<BlockId> changed_regions_;
+  std::vector<BlockId> changed_regions_;  // Each once.
 };
 
 }  // namespace plumb::internal

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "image/parallel_for.h"
 #include "plumbline/common/options.h"
 #include "plumbline/common/stopwatch.h"
 #include "quality/quality_map_impl.h"
@@ -148,8 +149,8 @@ void QualityMap::Impl::ForgetSight(PhotoId photo) {
   sights_.erase(photo);
   const auto found = blocks_of_view_.find(photo);
   if (found == blocks_of_view_.end()) return;
-  for (const BlockId& id : found->second) {
-    states_.at(id).rows.erase(photo);
+  for (const auto& [id, state] : found->second) {
+    state->rows.erase(photo);
     touched_blocks_.insert(id);
   }
   blocks_of_view_.erase(found);
@@ -162,23 +163,43 @@ void QualityMap::Impl::ApplyMesh(const MeshDelta& delta) {
     for (const MeshBlock& block : delta.blocks) gone.erase(block.id);
     for (const BlockId& id : gone) RemoveBlock(id);
   }
-  for (const MeshBlock& block : delta.blocks) SetBlock(block);
+  SetBlocks(delta.blocks);
 }
 
-void QualityMap::Impl::SetBlock(const MeshBlock& block) {
-  const auto known = blocks_.find(block.id);
-  if (known != blocks_.end() && known->second.mesh == block) return;
-  RemoveBlock(block.id);
-  if (block.faces.empty()) return;
-  QualityBlock& stored = blocks_[block.id];
-  stored.mesh = block;
-  stored.shapes = ShapesOf(block);
-  BlockState& state = states_[block.id];
-  state.box = BoxOf(block);
-  state.faces = internal::FaceArrays(stored.shapes);
-  state.ranks = RanksAlongCurve(stored.shapes, state.box);
-  occluders_.Set(stored.mesh);
-  NoteChange(block.id, state.box);
+void QualityMap::Impl::SetBlocks(const std::vector<MeshBlock>& blocks) {
+  std::map<BlockId, BlockState*> fresh;  // If a block is named twice, as it is last.
+  for (const MeshBlock& mesh : blocks) {
+    const auto known = blocks_.find(mesh.id);
+    if (known != blocks_.end() && known->second.mesh == mesh) continue;
+    RemoveBlock(mesh.id);
+    fresh.erase(mesh.id);
+    if (mesh.faces.empty()) continue;
+    QualityBlock& block = blocks_[mesh.id];
+    block.mesh = mesh;
+    BlockState& state = states_[mesh.id];
+    state.block = &block;
+    state.is_changed = true;
+    fresh[mesh.id] = &state;
+  }
+  std::vector<BlockState*> states;
+  for (const auto& [id, state] : fresh) states.push_back(state);
+  ParallelFor(options_.num_threads, static_cast<int>(states.size()), 1, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) MeasureFaces(states[static_cast<std::size_t>(i)]);
+  });
+  std::vector<const MeshBlock*> meshes;
+  for (const auto& [id, state] : fresh) {
+    NoteChange(id, state->box);
+    meshes.push_back(&state->block->mesh);
+  }
+  occluders_.Set(meshes, options_.num_threads);
+}
+
+void QualityMap::Impl::MeasureFaces(BlockState* state) {
+  QualityBlock* block = state->block;
+  block->shapes = ShapesOf(block->mesh);
+  state->box = BoxOf(block->mesh);
+  state->faces = internal::FaceArrays(block->shapes);
+  state->ranks = RanksAlongCurve(block->shapes, state->box);
 }
 
 void QualityMap::Impl::RemoveBlock(const BlockId& id) {

@@ -32,14 +32,6 @@ class QualityMap::Impl {
   double noise_px() const { return noise_px_; }
 
  private:
-  // What of a block is for the making of it only.
-  struct BlockState {
-    Eigen::AlignedBox3d box;  // Of the faces, which may reach out of the block.
-    internal::FaceArrays faces;
-    std::vector<std::uint32_t> ranks;  // Of each face: neighbours have near ones.
-    std::map<PhotoId, SightRow> rows;  // Of views that have at least one value other than 0.
-  };
-
   struct Look {
     PhotoId photo;
     const internal::Sight* sight = nullptr;
@@ -51,8 +43,16 @@ class QualityMap::Impl {
     std::vector<internal::ImageRect> before;
   };
 
-  // The looks at one block. Blocks are looked at in parallel.
-  struct BlockTask {
+  // What of a block is for the making of it only.
+  struct BlockState {
+    QualityBlock* block = nullptr;
+    Eigen::AlignedBox3d box;  // Of the faces, which may reach out of the block.
+    internal::FaceArrays faces;
+    std::vector<std::uint32_t> ranks;  // Of each face: neighbours have near ones.
+    std::map<PhotoId, SightRow> rows;  // Of views that have at least one value other than 0.
+
+    // Of the step that is being done. Blocks are looked at in parallel.
+    bool is_changed = false;
     std::vector<Look> looks;
     std::vector<LookPast> looks_past;
   };
@@ -76,23 +76,26 @@ class QualityMap::Impl {
   void RemoveView(PhotoId photo);
   void ForgetSight(PhotoId photo);
   void ApplyMesh(const MeshDelta& delta);
-  void SetBlock(const MeshBlock& block);
+  void SetBlocks(const std::vector<MeshBlock>& blocks);
+  static void MeasureFaces(BlockState* state);
   void RemoveBlock(const BlockId& id);
   void NoteChange(const BlockId& id, const Eigen::AlignedBox3d& box);
   void LookAnew();
-  std::map<BlockId, BlockTask> Prepare();
-  std::map<BlockId, BlockTask> PlanLooks() const;
-  void PlanLooksPast(PhotoId photo,
-                     const internal::Sight& sight,
-                     std::map<BlockId, BlockTask>* tasks) const;
-  BlockOutcome Perform(const BlockId& id, const BlockTask& task);
-  void CollectBehind(const BlockId& id, const LookPast& look, std::vector<Test>* tests);
-  void MakeRow(const BlockId& id,
-               const Look& look,
-               std::vector<Test>* tests,
-               BlockOutcome* outcome);
-  bool Decide(const BlockId& id, const std::vector<Test>& tests) const;
-  bool Summarize(const BlockId& id);
+  std::vector<BlockState*> Prepare();
+  std::vector<BlockState*> PlanLooks();
+  void PlanLooksPast(const Look& look,
+                     const std::vector<Eigen::AlignedBox3d>& changed_boxes,
+                     std::vector<BlockState*>* planned);
+  static BlockOutcome Perform(const internal::Occluders& occluders, BlockState* state);
+  static void CollectBehind(const LookPast& look, BlockState* state, std::vector<Test>* tests);
+  static void MakeRow(const Look& look,
+                      BlockState* state,
+                      std::vector<Test>* tests,
+                      BlockOutcome* outcome);
+  static bool Decide(const internal::Occluders& occluders,
+                     const BlockState& state,
+                     const std::vector<Test>& tests);
+  bool Summarize(BlockState* state) const;
   void UpdateNoise();
   QualityUpdate Finish();
 
@@ -105,7 +108,7 @@ class QualityMap::Impl {
   std::map<PhotoId, internal::Sight> sights_;  // Empty while there is no camera.
   std::map<BlockId, QualityBlock> blocks_;
   std::map<BlockId, BlockState> states_;
-  std::map<PhotoId, std::set<BlockId>> blocks_of_view_;  // Where the view has a row.
+  std::map<PhotoId, std::map<BlockId, BlockState*>> blocks_of_view_;  // Where it has a row.
   internal::Occluders occluders_;
   internal::BundleNoise noise_;
   double noise_px_;

@@ -42,100 +42,110 @@ float LargestSigma(const SightSums& sums, std::size_t face) {
 }  // namespace
 
 void QualityMap::Impl::LookAnew() {
-  const std::map<BlockId, BlockTask> tasks = Prepare();
-  std::vector<const std::pair<const BlockId, BlockTask>*> items;
-  for (const auto& item : tasks) items.push_back(&item);
-  std::vector<BlockOutcome> outcomes(items.size());
-  ParallelFor(options_.num_threads, static_cast<int>(items.size()), 1, [&](int begin, int end) {
+  const std::vector<BlockState*> planned = Prepare();
+  std::vector<BlockOutcome> outcomes(planned.size());
+  ParallelFor(options_.num_threads, static_cast<int>(planned.size()), 1, [&](int begin, int end) {
     for (std::size_t i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      outcomes[i] = Perform(items[i]->first, items[i]->second);
+      outcomes[i] = Perform(occluders_, planned[i]);
     }
   });
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    const BlockId& id = items[i]->first;
+  for (std::size_t i = 0; i < planned.size(); ++i) {
+    const BlockId& id = planned[i]->block->mesh.id;
     update_.num_rays += outcomes[i].num_rays;
     if (outcomes[i].is_touched) touched_blocks_.insert(id);
-    for (const PhotoId photo : outcomes[i].new_rows) blocks_of_view_[photo].insert(id);
+    for (const PhotoId photo : outcomes[i].new_rows) blocks_of_view_[photo][id] = planned[i];
   }
 }
 
-// Plans while the trees of the occluders are built.
-std::map<BlockId, QualityMap::Impl::BlockTask> QualityMap::Impl::Prepare() {
-  std::map<BlockId, BlockTask> tasks;
-  ParallelFor(options_.num_threads, 2, 1, [&](int part, int /*end*/) {
+// Plans and looks at the noise while the trees of the occluders are built.
+std::vector<QualityMap::Impl::BlockState*> QualityMap::Impl::Prepare() {
+  std::vector<BlockState*> planned;
+  const int num_regions = static_cast<int>(occluders_.num_changed_regions());
+  ParallelFor(options_.num_threads, 2 + num_regions, 1, [&](int part, int /*end*/) {
     if (part == 0) {
-      occluders_.Commit();
+      planned = PlanLooks();
+    } else if (part == 1) {
+      UpdateNoise();
     } else {
-      tasks = PlanLooks();
+      occluders_.CommitRegion(static_cast<std::size_t>(part - 2));
     }
   });
-  return tasks;
+  occluders_.Commit();
+  return planned;
 }
 
-std::map<BlockId, QualityMap::Impl::BlockTask> QualityMap::Impl::PlanLooks() const {
-  std::map<BlockId, BlockTask> tasks;
+std::vector<QualityMap::Impl::BlockState*> QualityMap::Impl::PlanLooks() {
+  std::vector<Eigen::AlignedBox3d> changed_boxes;
+  for (const auto& [id, box] : changed_boxes_) {
+    if (!box.isEmpty()) changed_boxes.push_back(box);
+  }
+  std::vector<BlockState*> all;
+  std::vector<BlockState*> changed;
+  for (auto& [id, state] : states_) {
+    if (state.box.isEmpty()) continue;
+    all.push_back(&state);
+    if (state.is_changed) changed.push_back(&state);
+  }
+  std::vector<BlockState*> planned;
   for (const auto& [photo, sight] : sights_) {
-    const auto plan = [&, &photo = photo, &sight = sight](const BlockId& id) {
-      const BlockState& state = states_.at(id);
-      if (state.box.isEmpty()) return;
-      if (!sight.MayShow(state.box.center(), 0.5 * state.box.diagonal().norm())) return;
-      tasks[id].looks.push_back({photo, &sight});
-    };
-    if (changed_views_.count(photo) != 0) {
-      for (const auto& [id, state] : states_) plan(id);
-    } else {
-      PlanLooksPast(photo, sight, &tasks);
-      for (const auto& [id, box] : changed_boxes_) {
-        if (states_.count(id) != 0) plan(id);
-      }
+    const Look look = {photo, &sight};
+    const bool is_changed = changed_views_.count(photo) != 0;
+    if (!is_changed) PlanLooksPast(look, changed_boxes, &planned);
+    for (BlockState* state : is_changed ? all : changed) {
+      if (!sight.MayShow(state->box.center(), 0.5 * state->box.diagonal().norm())) continue;
+      if (state->looks.empty() && state->looks_past.empty()) planned.push_back(state);
+      state->looks.push_back(look);
     }
   }
-  return tasks;
+  return planned;
 }
 
 // Unchanged blocks that the view has to see past a changed one: what covers the same part of the
 // image and is nearer may have come or gone.
-void QualityMap::Impl::PlanLooksPast(PhotoId photo,
-                                     const Sight& sight,
-                                     std::map<BlockId, BlockTask>* tasks) const {
-  const auto shown = blocks_of_view_.find(photo);
+void QualityMap::Impl::PlanLooksPast(const Look& look,
+                                     const std::vector<Eigen::AlignedBox3d>& changed_boxes,
+                                     std::vector<BlockState*>* planned) {
+  const auto shown = blocks_of_view_.find(look.photo);
   if (shown == blocks_of_view_.end()) return;
   std::vector<ImageRect> rects;
-  for (const auto& [id, box] : changed_boxes_) {
-    if (box.isEmpty() || !sight.MayShow(box.center(), 0.5 * box.diagonal().norm())) continue;
-    rects.push_back(sight.RectOf(box.min(), box.max()));
+  for (const Eigen::AlignedBox3d& box : changed_boxes) {
+    if (!look.sight->MayShow(box.center(), 0.5 * box.diagonal().norm())) continue;
+    rects.push_back(look.sight->RectOf(box.min(), box.max()));
   }
   if (rects.empty()) return;
-  for (const BlockId& id : shown->second) {
-    if (changed_boxes_.count(id) != 0) continue;
-    const BlockState& state = states_.at(id);
-    const ImageRect own = sight.RectOf(state.box.min(), state.box.max());
-    LookPast look{{photo, &sight}, {}};
+  for (const auto& [id, state] : shown->second) {
+    if (state->is_changed) continue;
+    const ImageRect own = look.sight->RectOf(state->box.min(), state->box.max());
+    LookPast look_past{look, {}};
     for (const ImageRect& rect : rects) {
-      if (rect.Meets(own) && rect.min_depth < own.max_depth) look.before.push_back(rect);
+      if (rect.Meets(own) && rect.min_depth < own.max_depth) look_past.before.push_back(rect);
     }
-    if (!look.before.empty()) (*tasks)[id].looks_past.push_back(std::move(look));
+    if (look_past.before.empty()) continue;
+    if (state->looks.empty() && state->looks_past.empty()) planned->push_back(state);
+    state->looks_past.push_back(std::move(look_past));
   }
 }
 
-// Changes the block's own state only.
-QualityMap::Impl::BlockOutcome QualityMap::Impl::Perform(const BlockId& id, const BlockTask& task) {
+QualityMap::Impl::BlockOutcome QualityMap::Impl::Perform(const internal::Occluders& occluders,
+                                                         BlockState* state) {
   BlockOutcome outcome;
   std::vector<Test> tests;
-  for (const LookPast& look : task.looks_past) CollectBehind(id, look, &tests);
-  for (const Look& look : task.looks) MakeRow(id, look, &tests, &outcome);
+  for (const LookPast& look : state->looks_past) CollectBehind(look, state, &tests);
+  for (const Look& look : state->looks) MakeRow(look, state, &tests, &outcome);
+  state->looks_past.clear();
+  state->looks.clear();
   outcome.num_rays = tests.size();
   outcome.is_touched = !outcome.new_rows.empty();
-  if (Decide(id, tests)) outcome.is_touched = true;
+  if (Decide(occluders, *state, tests)) outcome.is_touched = true;
   return outcome;
 }
 
 // Faces of the block in the view that lie behind what has changed, as it covers the image.
-void QualityMap::Impl::CollectBehind(const BlockId& id,
-                                     const LookPast& look,
+void QualityMap::Impl::CollectBehind(const LookPast& look,
+                                     BlockState* state,
                                      std::vector<Test>* tests) {
-  SightRow& row = states_.at(id).rows.at(look.look.photo);
-  const std::vector<FaceShape>& shapes = blocks_.at(id).shapes;
+  SightRow& row = state->rows.at(look.look.photo);
+  const std::vector<FaceShape>& shapes = state->block->shapes;
   for (std::uint32_t i = 0; i < row.size(); ++i) {
     if (row[i] == 0.0F) continue;
     const Eigen::Vector3d seen = look.look.sight->Seen(shapes[i].center_in_map);
@@ -149,15 +159,15 @@ void QualityMap::Impl::CollectBehind(const BlockId& id,
   }
 }
 
-void QualityMap::Impl::MakeRow(const BlockId& id,
-                               const Look& look,
+void QualityMap::Impl::MakeRow(const Look& look,
+                               BlockState* state,
                                std::vector<Test>* tests,
                                BlockOutcome* outcome) {
-  const std::vector<FaceShape>& shapes = blocks_.at(id).shapes;
+  const std::vector<FaceShape>& shapes = state->block->shapes;
   SightRow row(shapes.size());
-  internal::FindStretches(look.sight->numbers(), states_.at(id).faces, row.data());
+  internal::FindStretches(look.sight->numbers(), state->faces, row.data());
   if (std::all_of(row.begin(), row.end(), [](float value) { return value == 0.0F; })) return;
-  SightRow& stored = states_.at(id).rows[look.photo];
+  SightRow& stored = state->rows[look.photo];
   stored = std::move(row);
   outcome->new_rows.push_back(look.photo);
   for (std::uint32_t i = 0; i < stored.size(); ++i) {
@@ -168,8 +178,10 @@ void QualityMap::Impl::MakeRow(const BlockId& id,
 
 // Casts the rays, neighbouring ones together, and puts what they tell into the rows; whether that
 // is another thing than before.
-bool QualityMap::Impl::Decide(const BlockId& id, const std::vector<Test>& tests) const {
-  const std::vector<std::uint32_t>& ranks = states_.at(id).ranks;
+bool QualityMap::Impl::Decide(const internal::Occluders& occluders,
+                              const BlockState& state,
+                              const std::vector<Test>& tests) {
+  const std::vector<std::uint32_t>& ranks = state.ranks;
   std::vector<std::size_t> place_of_rank(ranks.size() + 1, 0);
   for (const Test& test : tests) ++place_of_rank[ranks[test.line.face] + 1];
   std::partial_sum(place_of_rank.begin(), place_of_rank.end(), place_of_rank.begin());
@@ -180,7 +192,7 @@ bool QualityMap::Impl::Decide(const BlockId& id, const std::vector<Test>& tests)
     lines[place] = test.line;
     values[place] = test.value;
   }
-  const std::vector<char> is_hidden = occluders_.FindHidden(blocks_.at(id).mesh, lines);
+  const std::vector<char> is_hidden = occluders.FindHidden(state.block->mesh, lines);
   bool is_changed = false;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const float value = std::abs(*values[i]);
@@ -192,12 +204,11 @@ bool QualityMap::Impl::Decide(const BlockId& id, const std::vector<Test>& tests)
 }
 
 // Sums up the block's rows; whether something came out that was not known.
-bool QualityMap::Impl::Summarize(const BlockId& id) {
-  QualityBlock& block = blocks_.at(id);
-  const BlockState& state = states_.at(id);
+bool QualityMap::Impl::Summarize(BlockState* state) const {
+  QualityBlock& block = *state->block;
   SightSums sums(block.shapes.size());
-  for (const auto& [photo, row] : state.rows) {
-    internal::AddSight(sights_.at(photo).numbers(), state.faces, row.data(), &sums);
+  for (const auto& [photo, row] : state->rows) {
+    internal::AddSight(sights_.at(photo).numbers(), state->faces, row.data(), &sums);
   }
   std::vector<FaceQuality> qualities(block.shapes.size());
   for (std::size_t i = 0; i < qualities.size(); ++i) {
@@ -207,7 +218,8 @@ bool QualityMap::Impl::Summarize(const BlockId& id) {
     quality.num_hidden = sums.num_hidden[i];
     if (quality.num_views >= 2) quality.sigma_per_px = LargestSigma(sums, i);
   }
-  const bool is_new = changed_boxes_.count(id) != 0 || qualities != block.qualities;
+  const bool is_new = state->is_changed || qualities != block.qualities;
+  state->is_changed = false;
   block.qualities = std::move(qualities);
   return is_new;
 }
@@ -227,13 +239,13 @@ QualityUpdate QualityMap::Impl::Finish() {
   std::vector<char> is_new(touched.size(), 1);  // As removed blocks are.
   ParallelFor(options_.num_threads, static_cast<int>(touched.size()), 1, [&](int begin, int end) {
     for (std::size_t i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      if (blocks_.count(touched[i]) != 0) is_new[i] = Summarize(touched[i]) ? 1 : 0;
+      const auto state = states_.find(touched[i]);
+      if (state != states_.end()) is_new[i] = Summarize(&state->second) ? 1 : 0;
     }
   });
   for (std::size_t i = 0; i < touched.size(); ++i) {
     if (is_new[i] != 0) update_.blocks.push_back(touched[i]);
   }
-  UpdateNoise();
   changed_views_.clear();
   changed_boxes_.clear();
   touched_blocks_.clear();
