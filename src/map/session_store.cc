@@ -23,8 +23,12 @@ std::string DatabasePath(const std::string& folder) { return folder + "/session.
 std::string ExistingDatabasePath(const std::string& folder) {
   std::error_code error;
   if (std::filesystem::is_regular_file(DatabasePath(folder), error)) return DatabasePath(folder);
-  throw std::runtime_error(folder +
-                           ": holds no session (no session.db); name the folder that was given to "
+  const auto type = std::filesystem::status(folder, error).type();
+  const char* found = ": holds no session (no session.db)";
+  if (type == std::filesystem::file_type::not_found) found = ": there is no such folder";
+  if (type == std::filesystem::file_type::regular) found = ": is a file, not a session's folder";
+  throw std::runtime_error(folder + found +
+                           "; name the folder that was given to "
                            "`plumbline reconstruct` or to the launch file");
 }
 

@@ -16,7 +16,8 @@ const char* CureFor(int code) {
       return "free some space on this disk";
     case SQLITE_NOTADB:
     case SQLITE_CORRUPT:
-      return "move the file away or choose another session folder";
+      return "put a copy in its place if there is one; else choose another session folder, or move "
+             "the file away, and map the photos anew";
     case SQLITE_READONLY:
     case SQLITE_CANTOPEN:
     case SQLITE_PERM:

@@ -194,13 +194,15 @@ std::optional<Eigen::Vector3d> FindFocus(const MapReplica& map,
   const Eigen::Vector3d towards_eye(std::cos(overview.pitch_rad) * std::cos(overview.yaw_rad),
                                     std::cos(overview.pitch_rad) * std::sin(overview.yaw_rad),
                                     std::sin(overview.pitch_rad));
-  // A point `along` nearer to the eye and `aside` of the line of sight is in view from a distance
-  // of at least along + aside / tan(half angle).
+  const Eigen::Vector3d right(-std::sin(overview.yaw_rad), std::cos(overview.yaw_rad), 0.0);
+  const Eigen::Vector3d up = towards_eye.cross(right);
+  // A point `along` nearer to the eye and `aside` of the line of sight, to a side or upwards, is in
+  // view from a distance of at least along + aside / tan(half angle).
   double needed = 0.0;
   for (const Eigen::Vector3d& point : points) {
     const Eigen::Vector3d offset = point - middle;
     const double along = offset.dot(towards_eye);
-    const double aside = (offset - along * towards_eye).norm();
+    const double aside = std::max(std::abs(offset.dot(right)), std::abs(offset.dot(up)));
     needed = std::max(needed, along + aside / std::tan(overview.half_angle_rad));
   }
   return middle + (needed - overview.distance) * towards_eye;

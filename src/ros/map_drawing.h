@@ -31,7 +31,7 @@ visualization_msgs::MarkerArray DrawFrusta(const MapReplica& map,
 nav_msgs::Path DrawPath(const MapReplica& map, const std_msgs::Header& header);
 
 // How a viewer looks at the map: from azimuth `yaw_rad` and height `pitch_rad` (as in RViz's Orbit)
-// at a point `distance` away, with a half angle of view.
+// at a point `distance` away, with a half angle of view to each side, up and down.
 struct Overview {
   double yaw_rad = 0.0;
   double pitch_rad = 0.0;

@@ -53,7 +53,9 @@ MapperRos::MapperRos(const ros::NodeHandle& handle, const MapperRosOptions& opti
       options_(options),
       started_(static_cast<double>(ros::WallTime::now().toSec())),
       diagnostics_(handle, ros::NodeHandle("~")) {
-  verdict_publisher_ = handle_.advertise<plumbline::PhotoVerdict>("photo_verdict", kVerdictQueue);
+  // Latched: RViz may be opened late.
+  verdict_publisher_ =
+      handle_.advertise<plumbline::PhotoVerdict>("photo_verdict", kVerdictQueue, /*latch=*/true);
   stored_publisher_ =
       handle_.advertise<plumbline::StoredPhotos>("stored_photos", 1, /*latch=*/true);
   if (std::filesystem::exists(options_.session_folder + "/session.db")) {

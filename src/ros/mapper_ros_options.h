@@ -25,7 +25,8 @@ struct MapperRosOptions {
   double overview_yaw_deg = 255.0;   // From the side of the first camera, a little to the left.
   double overview_pitch_deg = 20.0;  // A little from above.
   double overview_distance = 20.0;   // [map units: a tenth of the first median depth].
-  double overview_half_angle_deg = 18.0;  // RViz sees 45 degrees from top to bottom.
+  // To each side, up and down: RViz sees 45 degrees from top to bottom, and not less across.
+  double overview_half_angle_deg = 18.0;
 
   // Photos that wait for their features. What comes when it is full is dropped and sent again by
   // camera_ingest; a photo of 16 megapixels takes some 6 MB here.

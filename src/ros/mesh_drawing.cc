@@ -31,8 +31,11 @@ constexpr double kTextPerExtent = 0.027;
 
 // Of the disc behind a gap's name, and how far the name is before it, in heights of a letter: it is
 // before the disc even where that is seen from 25 degrees aside.
-constexpr double kDiscDiameter = 2.2;
-constexpr double kTextAhead = 0.5;
+constexpr double kDiscDiameter = 2.4;
+constexpr double kTextAhead = 0.35;
+
+// How far the disc is before its ring, in heights of a letter: before the plates of targets.
+constexpr double kDiscAhead = 2.4;
 
 std_msgs::ColorRGBA Ink(const std::array<float, 3>& rgb) {
   std_msgs::ColorRGBA color;
@@ -150,8 +153,7 @@ class GapSign {
            radius_ * (std::cos(angle) * right + std::sin(angle) * up);
   }
 
-  // A little before the ring.
-  Eigen::Vector3d Top() const { return OnRing(0.5 * M_PI) + 0.3 * text_height_ * facing_; }
+  Eigen::Vector3d Top() const { return OnRing(0.5 * M_PI) + kDiscAhead * text_height_ * facing_; }
 
   const Gap& gap_;
   int id_;

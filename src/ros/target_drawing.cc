@@ -23,14 +23,11 @@ constexpr double kTextPerExtent = 0.045;
 
 // Of RViz's letters, in their height.
 constexpr double kLetterWidth = 0.54;
-constexpr double kLineHeight = 1.4;
+constexpr double kPlateHeight = 1.7;
 
 // Plates face the eye of rviz/flight.rviz, which looks from 15 degrees to the left of where the
 // map's first camera looked.
 constexpr double kPlateTurn_rad = -15.0 * M_PI / 180.0;
-
-// No target's.
-constexpr int kSummaryId = -1;
 
 // What is drawn larger than a marker is, in extents of all targets: to be seen at all.
 constexpr double kLeastSizePerExtent = 0.012;
@@ -89,10 +86,8 @@ class Drawer {
       if (!PlaceOf(target).allFinite()) continue;
       DrawSymbol(target);
       DrawArrow(target);
-      const Eigen::Vector3d above = PlaceOf(target) + Eigen::Vector3d(0.0, 0.0, 0.7 * size_);
-      DrawText("target_labels", target.id, above, LabelOf(target), ColorOfText(target));
+      DrawLabel(target);
     }
-    DrawSummary();
     return std::move(drawing_);
   }
 
@@ -148,27 +143,17 @@ class Drawer {
     drawing_.markers.push_back(marker);
   }
 
-  // On a plate, for dark letters before the points of a facade are not legible. `lowest` is the
-  // middle of its lower edge.
-  void DrawText(const char* name,
-                int id,
-                const Eigen::Vector3d& lowest,
-                const std::string& text,
-                const std_msgs::ColorRGBA& color) {
-    std::istringstream lines(text);
-    double num_lines = 0.0;
-    double num_letters = 0.0;
-    for (std::string line; std::getline(lines, line); ++num_lines) {
-      num_letters = std::max(num_letters, static_cast<double>(line.size()));
-    }
-    Marker plate = Begin("plates_of_targets", id, Marker::CUBE);
-    plate.scale.x = text_size_ * (kLetterWidth * num_letters + 0.8);
+  // On a plate, for dark letters before the points of a facade are not legible. Above the symbol.
+  void DrawLabel(const TargetResidual& target) {
+    const std::string text = LabelOf(target);
+    Marker plate = Begin("plates_of_targets", target.id, Marker::CUBE);
+    plate.scale.x = text_size_ * (kLetterWidth * static_cast<double>(text.size()) + 0.8);
     plate.scale.y = 0.02 * text_size_;
-    plate.scale.z = text_size_ * (kLineHeight * num_lines + 0.3);
+    plate.scale.z = kPlateHeight * text_size_;
     const Eigen::Quaterniond turn(Eigen::AngleAxisd(kPlateTurn_rad, Eigen::Vector3d::UnitZ()));
     const Eigen::Vector3d towards_eye = turn * -Eigen::Vector3d::UnitY();
-    const Eigen::Vector3d middle =
-        lowest + size_ * towards_eye + Eigen::Vector3d(0.0, 0.0, 0.5 * plate.scale.z);
+    const Eigen::Vector3d middle = PlaceOf(target) + size_ * towards_eye +
+                                   Eigen::Vector3d(0.0, 0.0, 0.7 * size_ + 0.5 * plate.scale.z);
     plate.pose.position = ToPointMsg(middle);
     plate.pose.orientation.w = turn.w();
     plate.pose.orientation.z = turn.z();
@@ -176,10 +161,10 @@ class Drawer {
     drawing_.markers.push_back(plate);
     // Before it even when it is seen from somewhat aside: the text turns, the plate does not.
     const double ahead = 0.3 * text_size_ + 0.1 * plate.scale.x;
-    Marker marker = Begin(name, id, Marker::TEXT_VIEW_FACING);
+    Marker marker = Begin("target_labels", target.id, Marker::TEXT_VIEW_FACING);
     marker.pose.position = ToPointMsg(middle + ahead * towards_eye);
     marker.scale.z = text_size_;
-    marker.color = color;
+    marker.color = ColorOfText(target);
     marker.text = text;
     drawing_.markers.push_back(marker);
   }
@@ -204,31 +189,6 @@ class Drawer {
       label << ": " << target.state;
     }
     return label.str();
-  }
-
-  static void Summarise(const char* role,
-                        std::uint32_t count,
-                        double mean_mm,
-                        double max_mm,
-                        std::ostringstream* text) {
-    if (count == 0) return;
-    *text << count << ' ' << role << ": mean " << mean_mm << ", max " << max_mm << " mm\n";
-  }
-
-  void DrawSummary() {
-    std::ostringstream text;
-    text << std::fixed << std::setprecision(1);
-    const plumbline::Georeference& of = georeference_;
-    if (of.source == plumbline::Georeference::NONE) text << "not placed yet\n";
-    if (of.source == plumbline::Georeference::GPS) text << "coarse, by GPS alone\n";
-    Summarise("control", of.num_control, of.control_mean_mm, of.control_max_mm, &text);
-    Summarise("check", of.num_check, of.check_mean_mm, of.check_max_mm, &text);
-    std::string lines = text.str();
-    if (lines.empty()) return;
-    lines.pop_back();
-    Eigen::Vector3d top = box_.center();
-    top.z() = box_.max().z() + size_ + 3.0 * text_size_;
-    DrawText("georeference", kSummaryId, top, lines, Black());
   }
 
   TargetDrawingOptions options_;

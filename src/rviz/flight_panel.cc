@@ -18,6 +18,8 @@
 #include <pluginlib/class_list_macros.hpp>
 #include <thread>
 
+#include "rviz/target_line.h"
+
 namespace plumb::rviz_panel {
 namespace {
 
@@ -118,6 +120,7 @@ void FlightPanel::Connect() {
   subscribers_ = {
       handle_.subscribe(namespace_ + "/photo_verdict", 1000, &FlightPanel::OnVerdict, this),
       handle_.subscribe(namespace_ + "/gaps", 1, &FlightPanel::OnGaps, this),
+      handle_.subscribe(namespace_ + "/georeference", 1, &FlightPanel::OnGeoreference, this),
       handle_.subscribe("/diagnostics", 100, &FlightPanel::OnDiagnostics, this)};
   SubscribeLegend();
 }
@@ -174,6 +177,13 @@ void FlightPanel::OnGaps(const plumbline::Gaps& msg) {
   wanted_gsd_->blockSignals(true);
   wanted_gsd_->setValue(msg.wanted_gsd);
   wanted_gsd_->blockSignals(false);
+}
+
+void FlightPanel::OnGeoreference(const plumbline::Georeference& msg) {
+  const TargetLine line = TargetLineOf(msg);
+  targets_->setText(QString::fromStdString(line.text));
+  targets_->setStyleSheet(line.is_warning ? kWarningStyle : "");
+  targets_->setVisible(!line.text.empty());
 }
 
 // The one that the next step leads to is not told twice.
@@ -297,6 +307,7 @@ void FlightPanel::LookAt(std::size_t index) {
 }
 
 void FlightPanel::OnWholeView() {
+  gap_list_->ClearChoice();
   rviz::ViewController* view = OrbitView(vis_manager_->getViewManager());
   view->subProp("Target Frame")->setValue("map_overview");
   for (const char* axis : {"X", "Y", "Z"}) {

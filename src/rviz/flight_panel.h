@@ -4,6 +4,7 @@
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <plumbline/Gaps.h>
+#include <plumbline/Georeference.h>
 #include <plumbline/PhotoVerdict.h>
 #include <ros/node_handle.h>
 #include <rviz/panel.h>
@@ -64,6 +65,9 @@ class FlightPanel : public rviz::Panel {
     std::string text;
   };
 
+  static constexpr char kWarningStyle[] =
+      "background: #b00000; color: white; font-weight: bold; padding: 4px;";
+
   void BuildWindow();
   QWidget* BuildPhotos();
   QWidget* BuildLayers();
@@ -85,6 +89,7 @@ class FlightPanel : public rviz::Panel {
   void OnVerdict(const plumbline::PhotoVerdict& msg);
   void OnDiagnostics(const diagnostic_msgs::DiagnosticArray& msg);
   void OnGaps(const plumbline::Gaps& msg);
+  void OnGeoreference(const plumbline::Georeference& msg);
   void OnLegend(const sensor_msgs::Image& msg);
 
   std::string namespace_ = "/plumbline";
@@ -105,6 +110,7 @@ class FlightPanel : public rviz::Panel {
   NextBox* next_;
   QLabel* counts_;
   QLabel* trouble_;
+  QLabel* targets_;
   QButtonGroup* layers_;
   QLabel* legend_;
   QLabel* wanted_unit_;

@@ -78,9 +78,10 @@ QWidget* FlightPanel::BuildPhotos() {
   next_ = new NextBox([this] { LookAt(0); });
   column->addWidget(next_);
   counts_ = MakeLabel("counts");
-  trouble_ =
-      MakeLabel("trouble", "background: #b00000; color: white; font-weight: bold; padding: 4px;");
-  for (QLabel* label : {trouble_, counts_}) column->addWidget(label);
+  trouble_ = MakeLabel("trouble", kWarningStyle);
+  targets_ = MakeLabel("targets");
+  targets_->setVisible(false);
+  for (QLabel* label : {trouble_, counts_, targets_}) column->addWidget(label);
   return box;
 }
 

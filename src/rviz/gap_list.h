@@ -21,6 +21,9 @@ class GapList : public QWidget {
   // Those from `first` on.
   void Show(const plumbline::Gaps& gaps, std::size_t first);
 
+  // The view is of none of them any more.
+  void ClearChoice() { list_->clearSelection(); }
+
   QSize minimumSizeHint() const override;
 
  protected:

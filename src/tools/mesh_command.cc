@@ -42,7 +42,11 @@ void AddMeshCommand(CLI::App* app, ExitCode* exit_code) {
   command->add_option("--session", arguments->session, "Folder of the session")->required();
   command->add_option(
       "--to,--output", arguments->folder, "Folder to write to (default: SESSION/export)");
-  command->add_option("--set", arguments->settings, "KEY=VALUE: an option of the surface; repeat")
+  command
+      ->add_option(
+          "--set",
+          arguments->settings,
+          "KEY=VALUE: an option of surface/ in docs/parameters.md, e.g. num_threads=2; repeat")
       ->allow_extra_args(false);
   command->callback([arguments, exit_code] {
     const SurfaceOptions options = ReadOptions(arguments->settings);

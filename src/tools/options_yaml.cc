@@ -34,10 +34,12 @@ void ReadScalar(const YAML::Node& node,
 }
 
 // A parameter's name with dots between its groups, without what ROS sets before it: the private
-// '~', the namespace and name of the node, and the group that holds all of MapperOptions.
+// '~', the namespace and name of the node, and the group that holds all of MapperOptions or
+// SurfaceOptions.
 std::string WithDots(std::string name) {
   std::replace(name.begin(), name.end(), '/', '.');
-  for (const std::string prefix : {"~", ".", "plumbline.", "mapper.", "mapper."}) {
+  for (const std::string prefix :
+       {"~", ".", "plumbline.", "mapper.", "mapper.", "mesher.", "surface."}) {
     if (name.rfind(prefix, 0) == 0) name.erase(0, prefix.size());
   }
   return name;
@@ -57,8 +59,9 @@ YAML::Node ParseYaml(const std::string& text, const std::string& source) {
 YAML::Node ParseSetting(const std::string& setting) {
   const std::size_t equals = setting.find('=');
   if (equals == std::string::npos || equals == 0) {
-    throw std::runtime_error("--set: \"" + setting +
-                             "\" is no setting; use KEY=VALUE, e.g. bundle.num_threads=2");
+    throw std::runtime_error(
+        "--set: \"" + setting +
+        "\" is no setting; use KEY=VALUE, with the names of docs/parameters.md");
   }
   YAML::Node node = ParseYaml(setting.substr(equals + 1), "--set " + setting);
   std::string key = WithDots(setting.substr(0, equals));

@@ -20,7 +20,7 @@ namespace plumb::tools {
 YAML::Node ParseYaml(const std::string& text, const std::string& source);
 
 // One setting KEY=VALUE as YAML, e.g. "bundle.num_threads=2", or as docs/parameters.md and ROS
-// write it, "mapper/bundle/num_threads=2".
+// write it, "mapper/bundle/num_threads=2" and "surface/num_threads=2".
 YAML::Node ParseSetting(const std::string& setting);
 
 // Where a field stands.

@@ -94,8 +94,14 @@ TEST_F(SessionFailure, WhatIsNoSessionIsRefusedAndLeftAsItIs) {
 
 TEST_F(SessionFailure, ReadingAFolderWithoutASessionMakesNone) {
   EXPECT_THAT(ErrorOf([&] { SessionStore::OpenExisting(folder_); }),
-              AllOf(HasSubstr(folder_), HasSubstr("holds no session")));
+              AllOf(HasSubstr(folder_), HasSubstr("there is no such folder")));
   EXPECT_FALSE(std::filesystem::exists(folder_));
+  std::filesystem::create_directory(folder_);
+  EXPECT_THAT(ErrorOf([&] { SessionStore::OpenExisting(folder_); }),
+              AllOf(HasSubstr(folder_), HasSubstr("holds no session")));
+  std::ofstream(folder_ + "/photo.jpg") << 'x';
+  EXPECT_THAT(ErrorOf([&] { SessionStore::OpenExisting(folder_ + "/photo.jpg"); }),
+              AllOf(HasSubstr("photo.jpg"), HasSubstr("is a file")));
 }
 
 TEST_F(SessionFailure, ASecondWriterIsRefusedWhileAReaderIsWelcome) {

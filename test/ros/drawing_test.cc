@@ -84,7 +84,7 @@ TEST(DrawFrusta, DeletesWhatAnEmptyMapDoesNotHave) {
   }
 }
 
-// Whether a point lies in the cone that `overview` sees when it looks at `focus`.
+// Whether a point lies in the pyramid that `overview` sees when it looks at `focus`.
 bool IsInView(const Eigen::Vector3d& point,
               const Eigen::Vector3d& focus,
               const Overview& overview) {
@@ -92,7 +92,9 @@ bool IsInView(const Eigen::Vector3d& point,
                                     std::cos(overview.pitch_rad) * std::sin(overview.yaw_rad),
                                     std::sin(overview.pitch_rad));
   const Eigen::Vector3d ray = point - (focus + overview.distance * towards_eye);
-  return -ray.normalized().dot(towards_eye) >= std::cos(overview.half_angle_rad) - 1e-12;
+  const Eigen::Vector3d right = Eigen::Vector3d::UnitZ().cross(towards_eye).normalized();
+  const double reach = -ray.dot(towards_eye) * std::tan(overview.half_angle_rad) + 1e-9;
+  return std::abs(ray.dot(right)) <= reach && std::abs(ray.dot(towards_eye.cross(right))) <= reach;
 }
 
 TEST(FindFocus, HasAllCamerasAndPointsInViewWhateverTheDirectionAndDistance) {

@@ -4,6 +4,7 @@
 // be read on it, what is pressed must be done.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <plumbline/Georeference.h>
 #include <plumbline/SetMeshDisplay.h>
 #include <ros/ros.h>
 #include <rviz/display.h>
@@ -345,7 +346,43 @@ TEST_F(PanelTest, AClickOnAGapLooksThere) {
   Press("whole_view");
   view = frame_->getManager()->getViewManager()->getCurrent();
   EXPECT_EQ(view->subProp("Target Frame")->getValue().toString(), "map_overview");
+  EXPECT_TRUE(list->selectedItems().isEmpty());
   EXPECT_NEAR(view->subProp("Focal Point")->subProp("X")->getValue().toDouble(), 0.0, 1e-5);
+}
+
+TEST_F(PanelTest, ALineTellsHowTheModelFitsTheSurvey) {
+  ros::Publisher places =
+      handle_.advertise<plumbline::Georeference>("/plumbline/georeference", 1, true);
+  auto* line = Find<QLabel>("targets");
+  EXPECT_FALSE(line->isVisible());
+  plumbline::Georeference place;
+  place.source = plumbline::Georeference::GPS;
+  places.publish(place);
+  WaitFor([] { return TextOf("targets") == "Placed by GPS alone: metres off"; }, "GPS");
+  EXPECT_TRUE(line->isVisible());
+  place.source = plumbline::Georeference::NONE;
+  place.survey = "survey.csv";
+  places.publish(place);
+  WaitFor([] { return TextOf("targets") == "Targets: too few seen yet to place the map"; }, "few");
+  place.source = plumbline::Georeference::TARGETS;
+  place.num_control = 5;
+  place.control_mean_mm = 0.94;
+  place.num_check = 2;
+  place.check_mean_mm = 3.06;
+  places.publish(place);
+  WaitFor([] { return TextOf("targets") == "Targets: 5 control 0.9 mm, 2 check 3.1 mm"; }, "fit");
+  ExpectLegible();
+  place.targets.resize(5);
+  for (std::size_t i = 0; i < 5; ++i) {
+    place.targets[i].name = "W" + std::to_string(i);
+    place.targets[i].state =
+        i == 0 ? plumbline::TargetResidual::GOOD : plumbline::TargetResidual::WRONG;
+  }
+  places.publish(place);
+  WaitFor([] { return TextOf("targets") == "WRONG targets, left out: W1, W2, W3 ..."; }, "wrong");
+  ExpectLegible();
+  places.publish(plumbline::Georeference());
+  WaitFor([&] { return !line->isVisible(); }, "nothing to tell");
 }
 
 TEST_F(PanelTest, TheWantedGsdAndThePaletteReachTheMesher) {

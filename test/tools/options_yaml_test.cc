@@ -9,6 +9,7 @@
 
 #include "plumbline/map/run_report.h"
 #include "plumbline/sfm/mapper_options.h"
+#include "plumbline/surface/surface_options.h"
 
 namespace plumb::tools {
 namespace {
@@ -90,6 +91,11 @@ TEST(ParseSetting, TakesNamesAsRosWritesThem) {
     MapperOptions options;
     ReadValue(ParseSetting(std::string(name) + "=2.5"), {"--set", ""}, &options);
     EXPECT_EQ(options.localizer.max_error_px, 2.5) << name;
+  }
+  for (const char* name : {"surface/block_side", "/plumbline/mesher/surface/block_side"}) {
+    SurfaceOptions options;
+    ReadValue(ParseSetting(std::string(name) + "=2.5"), {"--set", ""}, &options);
+    EXPECT_EQ(options.block_side, 2.5) << name;
   }
   MapperOptions options;
   ReadValue(ParseSetting("retrieval/vocabulary_path=/data/tree"), {"--set", ""}, &options);
