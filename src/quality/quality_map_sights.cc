@@ -14,7 +14,6 @@ namespace plumb {
 namespace {
 
 using internal::ImageRect;
-using internal::Sight;
 using internal::SightSums;
 
 // Steps of the noise: a change of a tenth is not worth painting the whole mesh anew.
