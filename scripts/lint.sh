@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-FileCopyrightText: 2026 The Plumbline authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Checks layers, licences, format, the generated pages, that the benchmarks compile, and clang-tidy. The argument is the build folder.
+# Checks layers, licences, format, the generated pages, that the benchmarks compile, and clang-tidy.
+# The argument is the build folder.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 build=${1:?the build folder}

@@ -140,7 +140,7 @@ void Occluders::Attach(const BlockId& block, const EmbreeGeometry& geometry) {
   const BlockId id = RegionOf(block);
   Region* region = EnsureRegion(id);
   region->geometry_of_block[block] = rtcAttachGeometry(region->scene.get(), geometry.get());
-  NoteChange(id, region);
+  changed_regions_.insert(id);
 }
 
 void Occluders::Remove(const BlockId& id) {
@@ -151,23 +151,17 @@ void Occluders::Remove(const BlockId& id) {
   if (found == region->second.geometry_of_block.end()) return;
   rtcDetachGeometry(region->second.scene.get(), found->second);
   region->second.geometry_of_block.erase(found);
-  NoteChange(region_id, &region->second);
+  changed_regions_.insert(region_id);
 }
 
-void Occluders::NoteChange(const BlockId& id, Region* region) {
-  if (!region->is_changed) changed_regions_.push_back(id);
-  region->is_changed = true;
-}
-
-void Occluders::CommitRegion(std::size_t index) const {
-  const Region& region = regions_.at(changed_regions_[index]);
+void Occluders::CommitRegion(const BlockId& id) const {
+  const Region& region = regions_.at(id);
   if (!region.geometry_of_block.empty()) rtcCommitScene(region.scene.get());
 }
 
 void Occluders::Commit() {
   for (const BlockId& id : std::exchange(changed_regions_, {})) {
     Region& region = regions_.at(id);
-    region.is_changed = false;
     if (region.geometry_of_block.empty()) {
       rtcDetachGeometry(scene_.get(), region.instance_id);
       regions_.erase(id);

@@ -39,8 +39,8 @@ class Occluders {
 
   // After changes, before casting: first each changed region, at the same time if that suits, then
   // the whole.
-  std::size_t num_changed_regions() const { return changed_regions_.size(); }
-  void CommitRegion(std::size_t index) const;
+  const std::set<BlockId>& changed_regions() const { return changed_regions_; }
+  void CommitRegion(const BlockId& id) const;
   void Commit();
 
   // For each line of a block: 1 if a face other than its own lies between, else 0. Quick if lines
@@ -53,18 +53,16 @@ class Occluders {
     EmbreeGeometry instance;  // Of `scene` in the scene of all.
     unsigned instance_id = 0;
     std::map<BlockId, unsigned> geometry_of_block;
-    bool is_changed = false;
   };
 
   static BlockId RegionOf(const BlockId& block);
   void Attach(const BlockId& block, const EmbreeGeometry& geometry);
   Region* EnsureRegion(const BlockId& id);
-  void NoteChange(const BlockId& id, Region* region);
 
   EmbreeDevice device_;
   EmbreeScene scene_;
   std::map<BlockId, Region> regions_;
-  std::vector<BlockId> changed_regions_;  // Each once.
+  std::set<BlockId> changed_regions_;
 };
 
 }  // namespace plumb::internal

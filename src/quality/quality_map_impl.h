@@ -83,18 +83,14 @@ class QualityMap::Impl {
   void LookAnew();
   std::vector<BlockState*> Prepare();
   std::vector<BlockState*> PlanLooks();
-  void PlanLooksPast(const Look& look,
-                     const std::vector<Eigen::AlignedBox3d>& changed_boxes,
-                     std::vector<BlockState*>* planned);
-  static BlockOutcome Perform(const internal::Occluders& occluders, BlockState* state);
+  void PlanLooksPast(const Look& look, const std::vector<Eigen::AlignedBox3d>& changed_boxes);
+  BlockOutcome Perform(BlockState* state) const;
   static void CollectBehind(const LookPast& look, BlockState* state, std::vector<Test>* tests);
   static void MakeRow(const Look& look,
                       BlockState* state,
                       std::vector<Test>* tests,
                       BlockOutcome* outcome);
-  static bool Decide(const internal::Occluders& occluders,
-                     const BlockState& state,
-                     const std::vector<Test>& tests);
+  bool Decide(const BlockState& state, const std::vector<Test>& tests) const;
   bool Summarize(BlockState* state) const;
   void UpdateNoise();
   QualityUpdate Finish();

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -45,7 +46,7 @@ void QualityMap::Impl::LookAnew() {
   std::vector<BlockOutcome> outcomes(planned.size());
   ParallelFor(options_.num_threads, static_cast<int>(planned.size()), 1, [&](int begin, int end) {
     for (std::size_t i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      outcomes[i] = Perform(occluders_, planned[i]);
+      outcomes[i] = Perform(planned[i]);
     }
   });
   for (std::size_t i = 0; i < planned.size(); ++i) {
@@ -59,14 +60,16 @@ void QualityMap::Impl::LookAnew() {
 // Plans and looks at the noise while the trees of the occluders are built.
 std::vector<QualityMap::Impl::BlockState*> QualityMap::Impl::Prepare() {
   std::vector<BlockState*> planned;
-  const int num_regions = static_cast<int>(occluders_.num_changed_regions());
-  ParallelFor(options_.num_threads, 2 + num_regions, 1, [&](int part, int /*end*/) {
+  const std::vector<BlockId> regions(occluders_.changed_regions().begin(),
+                                     occluders_.changed_regions().end());
+  const int num_parts = 2 + static_cast<int>(regions.size());
+  ParallelFor(options_.num_threads, num_parts, 1, [&](int part, int /*end*/) {
     if (part == 0) {
       planned = PlanLooks();
     } else if (part == 1) {
       UpdateNoise();
     } else {
-      occluders_.CommitRegion(static_cast<std::size_t>(part - 2));
+      occluders_.CommitRegion(regions[static_cast<std::size_t>(part - 2)]);
     }
   });
   occluders_.Commit();
@@ -85,25 +88,26 @@ std::vector<QualityMap::Impl::BlockState*> QualityMap::Impl::PlanLooks() {
     all.push_back(&state);
     if (state.is_changed) changed.push_back(&state);
   }
-  std::vector<BlockState*> planned;
   for (const auto& [photo, sight] : sights_) {
     const Look look = {photo, &sight};
     const bool is_changed = changed_views_.count(photo) != 0;
-    if (!is_changed) PlanLooksPast(look, changed_boxes, &planned);
+    if (!is_changed) PlanLooksPast(look, changed_boxes);
     for (BlockState* state : is_changed ? all : changed) {
       if (!sight.MayShow(state->box.center(), 0.5 * state->box.diagonal().norm())) continue;
-      if (state->looks.empty() && state->looks_past.empty()) planned.push_back(state);
       state->looks.push_back(look);
     }
   }
+  std::vector<BlockState*> planned;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(planned), [](const BlockState* state) {
+    return !state->looks.empty() || !state->looks_past.empty();
+  });
   return planned;
 }
 
 // Unchanged blocks that the view has to see past a changed one: what covers the same part of the
 // image and is nearer may have come or gone.
 void QualityMap::Impl::PlanLooksPast(const Look& look,
-                                     const std::vector<Eigen::AlignedBox3d>& changed_boxes,
-                                     std::vector<BlockState*>* planned) {
+                                     const std::vector<Eigen::AlignedBox3d>& changed_boxes) {
   const auto shown = blocks_of_view_.find(look.photo);
   if (shown == blocks_of_view_.end()) return;
   std::vector<ImageRect> rects;
@@ -120,13 +124,12 @@ void QualityMap::Impl::PlanLooksPast(const Look& look,
       if (rect.Meets(own) && rect.min_depth < own.max_depth) look_past.before.push_back(rect);
     }
     if (look_past.before.empty()) continue;
-    if (state->looks.empty() && state->looks_past.empty()) planned->push_back(state);
     state->looks_past.push_back(std::move(look_past));
   }
 }
 
-QualityMap::Impl::BlockOutcome QualityMap::Impl::Perform(const internal::Occluders& occluders,
-                                                         BlockState* state) {
+// Changes the block's own state only.
+QualityMap::Impl::BlockOutcome QualityMap::Impl::Perform(BlockState* state) const {
   BlockOutcome outcome;
   std::vector<Test> tests;
   for (const LookPast& look : state->looks_past) CollectBehind(look, state, &tests);
@@ -135,7 +138,7 @@ QualityMap::Impl::BlockOutcome QualityMap::Impl::Perform(const internal::Occlude
   state->looks.clear();
   outcome.num_rays = tests.size();
   outcome.is_touched = !outcome.new_rows.empty();
-  if (Decide(occluders, *state, tests)) outcome.is_touched = true;
+  if (Decide(*state, tests)) outcome.is_touched = true;
   return outcome;
 }
 
@@ -177,9 +180,7 @@ void QualityMap::Impl::MakeRow(const Look& look,
 
 // Casts the rays, neighbouring ones together, and puts what they tell into the rows; whether that
 // is another thing than before.
-bool QualityMap::Impl::Decide(const internal::Occluders& occluders,
-                              const BlockState& state,
-                              const std::vector<Test>& tests) {
+bool QualityMap::Impl::Decide(const BlockState& state, const std::vector<Test>& tests) const {
   const std::vector<std::uint32_t>& ranks = state.ranks;
   std::vector<std::size_t> place_of_rank(ranks.size() + 1, 0);
   for (const Test& test : tests) ++place_of_rank[ranks[test.line.face] + 1];
@@ -191,7 +192,7 @@ bool QualityMap::Impl::Decide(const internal::Occluders& occluders,
     lines[place] = test.line;
     values[place] = test.value;
   }
-  const std::vector<char> is_hidden = occluders.FindHidden(state.block->mesh, lines);
+  const std::vector<char> is_hidden = occluders_.FindHidden(state.block->mesh, lines);
   bool is_changed = false;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const float value = std::abs(*values[i]);

@@ -4,13 +4,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
 #include <utility>
 
 #include "ros/geometry_conversion.h"
+#include "ros/target_name.h"
 
 namespace plumb::ros_adapter {
 namespace {
@@ -175,10 +175,7 @@ class Drawer {
 
   static std::string LabelOf(const TargetResidual& target) {
     std::ostringstream label;
-    if (!target.name.empty() && std::isdigit(static_cast<unsigned char>(target.name[0])) != 0) {
-      label << 'T';  // A bare number could be anything's.
-    }
-    label << target.name << std::fixed << std::setprecision(1);
+    label << TargetName(target) << std::fixed << std::setprecision(1);
     if (target.state == TargetResidual::GOOD) {
       label << ": " << target.error_mm << " mm";
     } else if (target.state == TargetResidual::WRONG) {

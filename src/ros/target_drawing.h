@@ -16,10 +16,10 @@ struct TargetDrawingOptions {
 };
 
 // Each target where the survey has it (or, unsurveyed or not placed yet, where the photos see it),
-// an arrow towards where the model puts it, and the millimetres in words; above them all how well
-// the model fits. A control point is a ball, a check point a cube, a wrong target is crossed out;
-// the colours are told apart by any eye (Okabe & Ito, Color Universal Design, 2002). Stamped 0: the
-// same georeference gives the same drawing.
+// an arrow towards where the model puts it, and the millimetres in words. A control point is a
+// ball, a check point a cube, a wrong target is crossed out; the colours are told apart by any eye
+// (Okabe & Ito, Color Universal Design, 2002). Stamped 0: the same georeference gives the same
+// drawing.
 visualization_msgs::MarkerArray DrawTargets(const TargetDrawingOptions& options,
                                             const plumbline::Georeference& georeference);
 

@@ -6,8 +6,12 @@
 #include <iomanip>
 #include <sstream>
 
+#include "ros/target_name.h"
+
 namespace plumb::rviz_panel {
 namespace {
+
+using ros_adapter::TargetName;
 
 // Of longer lists the first names say enough.
 constexpr std::size_t kMaxNames = 3;
@@ -17,7 +21,7 @@ std::string NamesOfWrong(const plumbline::Georeference& georeference) {
   std::size_t num_wrong = 0;
   for (const plumbline::TargetResidual& target : georeference.targets) {
     if (target.state != plumbline::TargetResidual::WRONG) continue;
-    if (++num_wrong <= kMaxNames) names += (num_wrong > 1 ? ", " : "") + target.name;
+    if (++num_wrong <= kMaxNames) names += (num_wrong > 1 ? ", " : "") + TargetName(target);
   }
   return num_wrong > kMaxNames ? names + " ..." : names;
 }

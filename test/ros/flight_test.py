@@ -67,6 +67,16 @@ class Replica:
         new = delta.observations_added
         self.observations |= set(zip(new.landmarks, new.photos, new.feature_idxs))
 
+    @classmethod
+    def of(cls, deltas):
+        replica = cls()
+        for delta in deltas:
+            replica.apply(delta)
+        return replica
+
+    def names(self):
+        return {view[0] for view in self.views.values()}
+
     def content(self):
         return self.views, self.landmarks, self.observations
 
@@ -153,12 +163,9 @@ class FlightTest(wire.FolderTest):
             lambda heard: heard and heard[-1].sequence >= snapshot.sequence, "the last delta")
         deltas = [delta for delta in deltas if delta.sequence <= snapshot.sequence]
         self.assertEqual([delta.sequence for delta in deltas], list(range(1, len(deltas) + 1)))
-        accumulated, expected = Replica(), Replica()
-        for delta in deltas:
-            accumulated.apply(delta)
-        expected.apply(snapshot)
+        accumulated, expected = Replica.of(deltas), Replica.of([snapshot])
         self.assertEqual(accumulated.content(), expected.content())
-        self.assertEqual({view[0] for view in expected.views.values()}, set(names))
+        self.assertEqual(expected.names(), set(names))
 
         self.stop(flight)
         self.verdicts.close()
@@ -179,11 +186,11 @@ class FlightTest(wire.FolderTest):
         for photo in rest:
             self.leave(photo.name, photo.read_bytes())
         self.wait_for_accepted([photo.name for photo in self.source])
-        get_map = rospy.ServiceProxy("/plumbline/get_map", GetMap)
+        names = {photo.name for photo in self.source}
         # Views follow their verdicts, and one accepted just before the kill may come again last.
-        wire.wait_until(lambda: {view.name for view in get_map().snapshot.views_set} ==
-                        {photo.name for photo in self.source}, "a map of all photos")
-        snapshot = get_map().snapshot
+        self.deltas.wait(lambda heard: Replica.of(heard).names() == names, "the views of all")
+        snapshot = rospy.ServiceProxy("/plumbline/get_map", GetMap)().snapshot
+        self.assertEqual({view.name for view in snapshot.views_set}, names)
         self.assertEqual([view.photo for view in snapshot.views_set], [1, 2, 3, 4])
 
     def test_a_killed_ingest_goes_on_counting(self):

@@ -20,8 +20,9 @@ import rospy
 import rostest
 from plumbline.msg import (ControlPoint, ControlPoints, Georeference, MapDelta, MarkerDetection,
                            MarkerDetectionArray, PhotoPositions, PhotoVerdict)
-from plumbline.srv import GetMarkerDetections, LoadSurvey
+from plumbline.srv import GetMap, GetMarkerDetections, LoadSurvey
 from std_msgs.msg import Float64
+from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
 
@@ -137,7 +138,7 @@ class GeoreferenceTest(wire.FolderTest):
             lambda heard: any(map(self.has_all_targets, heard[num_before:])), "all targets")
         return [g for g in heard[num_before:] if self.has_all_targets(g)][-1]
 
-    def wait_for_settled(self):
+    def wait_for_settled(self, is_it=lambda georeference: True):
         """The georeference with all that the photos show, and the last delta it was told of."""
         accepted = {v.sequence for v in self.verdicts.all() if v.status == PhotoVerdict.ACCEPTED}
         service = "/plumbline/get_marker_detections"
@@ -149,23 +150,13 @@ class GeoreferenceTest(wire.FolderTest):
             for marker_id in {marker.id for marker in answer.detections})
         return self.wait_for(
             lambda g: {target.id: target.num_photos for target in g.targets} == num_photos and
-            g.num_control + g.num_check == len(self.survey), f"{num_photos}")
+            g.num_control + g.num_check == len(self.survey) and is_it(g), f"{num_photos}")
 
-    def wait_for_rest(self):
-        """The settled georeference once no bundle has moved the map for some seconds."""
-        settled = self.wait_for_settled()
-        while True:
-            rospy.sleep(3.0)
-            newer = self.wait_for_settled()
-            if newer.map_sequence == settled.map_sequence:
-                return newer
-            settled = newer
-
-    def assert_equal_on_equal_maps(self, after, before):
-        """A bundle between the two moves the residuals by millimetres, rightly."""
-        if after.map_sequence == before.map_sequence:
-            for target, residual in residuals(before).items():
-                numpy.testing.assert_allclose(residuals(after)[target], residual, atol=1e-6)
+    def finish(self):
+        """The georeference of the finished map, which no bundle moves any more."""
+        self.assertTrue(rospy.ServiceProxy("/plumbline/finish", Trigger)().success)
+        sequence = rospy.ServiceProxy("/plumbline/get_map", GetMap)().snapshot.sequence
+        return self.wait_for_settled(lambda g: g.map_sequence == sequence)
 
     def write_survey(self, name, rows):
         path = self.folder / name
@@ -304,7 +295,9 @@ class GeoreferenceTest(wire.FolderTest):
         self.georeferences = self.hear("georeference", Georeference)
         after = self.wait_for_settled()
         self.assertEqual(after.survey, str(self.world / "survey.csv"))
-        self.assert_equal_on_equal_maps(after, before)
+        if after.map_sequence == before.map_sequence:
+            for target, residual in residuals(before).items():
+                numpy.testing.assert_allclose(residuals(after)[target], residual, atol=1e-6)
 
         killed = rospy.Time.now()
         kill_node("/plumbline/mapper")
@@ -326,7 +319,7 @@ class GeoreferenceTest(wire.FolderTest):
         flight = self.fly(survey=self.world / "survey.csv")
         self.leave(self.photos)
         self.wait_for_verdicts(NUM_PHOTOS)
-        before = self.wait_for_rest()
+        before = self.finish()
 
         def publish(topic, *messages):
             publisher = rospy.Publisher(f"/plumbline/{topic}", type(messages[0]), queue_size=10)
@@ -346,10 +339,10 @@ class GeoreferenceTest(wire.FolderTest):
         num_before = len(self.georeferences.all())
         self.assertTrue(self.load(self.world / "survey.csv").success)
         after = self.wait_for_all_targets(num_before)
+        self.assertEqual(after.map_sequence, before.map_sequence)
         self.assertEqual(states(after), states(before))
-        for target in after.targets:
-            self.assertLess(target.error_mm, 15.0)
-        self.assert_equal_on_equal_maps(after, before)
+        for target, residual in residuals(after).items():
+            numpy.testing.assert_allclose(residual, residuals(before)[target], atol=1e-6)
         self.assertIsNone(flight.poll())
 
 

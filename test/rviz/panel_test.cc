@@ -374,12 +374,13 @@ TEST_F(PanelTest, ALineTellsHowTheModelFitsTheSurvey) {
   ExpectLegible();
   place.targets.resize(5);
   for (std::size_t i = 0; i < 5; ++i) {
-    place.targets[i].name = "W" + std::to_string(i);
+    place.targets[i].name = i == 1 ? "corner" : std::to_string(i);
     place.targets[i].state =
         i == 0 ? plumbline::TargetResidual::GOOD : plumbline::TargetResidual::WRONG;
   }
   places.publish(place);
-  WaitFor([] { return TextOf("targets") == "WRONG targets, left out: W1, W2, W3 ..."; }, "wrong");
+  WaitFor([] { return TextOf("targets") == "WRONG targets, left out: corner, T2, T3 ..."; },
+          "wrong");
   ExpectLegible();
   places.publish(plumbline::Georeference());
   WaitFor([&] { return !line->isVisible(); }, "nothing to tell");
