@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstdint>
+#include <array>
 #include <vector>
 
-#include "plumbline/surface/surface_options.h"
 #include "surface/face_pool.h"
 #include "surface/ray_scene.h"
 
@@ -18,30 +17,28 @@ namespace plumb {
 //   - its longest edge is at most max_edge_ratio times the distance of the nearest camera of its
 //     corners, or at most twice that and one photo shows all three corners from the free side: long
 //     faces span what no landmark is on, an open side most of all.
+//
+// Serves one state of the scene. Rays once asked for are kept for a while: a landmark is a corner of
+// some six faces.
 class FaceSupport {
  public:
-  explicit FaceSupport(const SurfaceOptions& options) : max_edge_ratio_(options.max_edge_ratio) {}
+  FaceSupport(const RayScene& scene, double max_edge_ratio)
+      : scene_(scene), max_edge_ratio_(max_edge_ratio) {}
 
-  // A function of the corners' places and rays alone. Rays once asked for are kept: a landmark is a
-  // corner of some six faces.
-  bool IsSupported(const RayScene& scene, const FaceSlots& slots);
-
-  // To be called before the scene changes.
-  void ForgetRays();
+  // A function of the corners' places and rays alone.
+  bool IsSupported(const FaceSlots& slots);
 
  private:
-  struct RayRange {
-    std::uint32_t begin = 0;
-    std::uint32_t end = 0;  // 0: not known.
+  struct Known {
+    Slot slot = kNoSlot;
+    std::vector<SceneRay> rays;
   };
 
-  RayRange RangeOf(const RayScene& scene, Slot slot);
+  const std::vector<SceneRay>& RaysOf(Slot slot);
 
+  const RayScene& scene_;
   double max_edge_ratio_;
-  std::vector<SceneRay> rays_;  // Of known landmarks, one after the other.
-  std::vector<RayRange> range_of_slot_;
-  std::vector<Slot> known_slots_;
-  std::vector<SceneRay> new_rays_;
+  std::array<Known, 64> known_;  // By the last bits of the slot.
   std::vector<PhotoId> common_;  // Photos that show all corners so far, ascending.
 };
 

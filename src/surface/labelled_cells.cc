@@ -4,7 +4,6 @@
 
 #include "image/parallel_for.h"
 #include "plumbline/common/stopwatch.h"
-#include "surface/ray_cast.h"
 
 namespace plumb {
 namespace {
@@ -51,6 +50,8 @@ void LabelledCells::Apply(const MapDelta& delta, SurfaceReport* report) {
 
   cut_.Solve();
   for (const CutNode node : cut_.changed()) MarkChanged(node);
+  for (const CutNode node : reseen_nodes_) MarkChanged(node);
+  reseen_nodes_.clear();
   report->num_labels_changed = cut_.changed().size();
   report->cut_s = watch.Restart();
 
@@ -100,7 +101,8 @@ void LabelledCells::Cast(const std::vector<Slot>& recast, SurfaceReport* report)
     for (int i = begin; i < end; ++i) CastSlot(slots[static_cast<std::size_t>(i)], part);
   });
   for (const CastPart& part : parts) {
-    for (const CutNode node : part.nodes) MarkChanged(node);
+    for (const CutNode node : part.recounted) MarkChanged(node);
+    reseen_nodes_.insert(reseen_nodes_.end(), part.reseen.begin(), part.reseen.end());
     tetrahedra_->AddNodes(part.new_cells);
     report->num_rays_cast += part.num_rays;
   }
@@ -109,13 +111,18 @@ void LabelledCells::Cast(const std::vector<Slot>& recast, SurfaceReport* report)
 
 void LabelledCells::CastSlot(Slot slot, CastPart* part) const {
   scene_.RaysOf(slot, &part->rays);
-  const Triangulation& triangulation = tetrahedra_->triangulation();
-  CastRays(triangulation, tetrahedra_->VertexOf(slot), part->rays, &part->star);
-  for (const Cell cell : part->star) {
-    if (cell->info().node != kNoCutNode) {
-      part->nodes.push_back(cell->info().node);
-    } else if (!triangulation.is_infinite(cell)) {
+  const Vertex vertex = tetrahedra_->VertexOf(slot);
+  CastRays(tetrahedra_->triangulation(), vertex, part->rays, &part->star);
+  const bool is_reseen = IsReseen(slot);
+  for (std::size_t i = 0; i < part->star.cells.size(); ++i) {
+    const Cell cell = part->star.cells[i];
+    const CutNode node = cell->info().node;
+    if (node == kNoCutNode) {
       part->new_cells.push_back(cell);
+    } else if (part->star.IsChanged(i, vertex)) {
+      part->recounted.push_back(node);
+    } else if (is_reseen) {
+      part->reseen.push_back(node);
     }
   }
   part->num_rays += part->rays.size();
@@ -130,6 +137,7 @@ void LabelledCells::ConnectCreated() {
       const auto slot = static_cast<std::uint32_t>(i);
       if (other == kNoCutNode || cut_.NeighborOf(node, slot) != kNoCutNode) continue;
       cut_.Connect(node, slot, other, static_cast<std::uint32_t>(neighbor->index(cell)));
+      MarkChanged(other);
     }
   }
 }

@@ -13,6 +13,7 @@
 #include "plumbline/surface/surface_report.h"
 #include "surface/cell_weights.h"
 #include "surface/dynamic_cut.h"
+#include "surface/ray_cast.h"
 #include "surface/ray_scene.h"
 #include "surface/tetrahedra.h"
 
@@ -34,8 +35,10 @@ class LabelledCells {
   const SurfaceOptions& options() const { return options_; }
 
   // By the last Apply: nodes whose cells are gone, other, or stand otherwise to the mesh (their
-  // label, their rays or a neighbour changed), each once; and landmarks drawn elsewhere.
+  // label, a neighbour, or the rays of a landmark of theirs changed), each once; and landmarks drawn
+  // elsewhere.
   const std::vector<CutNode>& changed_nodes() const { return changed_nodes_; }
+  bool IsChanged(CutNode node) const { return node < is_changed_.size() && is_changed_[node] != 0; }
   const std::vector<Slot>& redrawn() const { return redrawn_; }
   // Whether the last Apply changed a landmark's place or rays.
   bool IsReseen(Slot slot) const { return slot < is_reseen_.size() && is_reseen_[slot] != 0; }
@@ -43,11 +46,12 @@ class LabelledCells {
  private:
   // What one thread finds while it casts rays.
   struct CastPart {
-    std::vector<CutNode> nodes;   // Whose counts may have changed.
-    std::vector<Cell> new_cells;  // They have no node yet.
+    std::vector<CutNode> recounted;  // Whose counts changed.
+    std::vector<CutNode> reseen;     // With a landmark whose rays changed; the same ones may be.
+    std::vector<Cell> new_cells;     // They have no node yet.
     std::size_t num_rays = 0;
     std::vector<SceneRay> rays;  // Of the landmark at hand, as is the star.
-    std::vector<Cell> star;
+    RayStar star;
   };
 
   struct CellWeights {
@@ -62,7 +66,6 @@ class LabelledCells {
   void ConnectCreated();
   void Weigh(SurfaceReport* report);
   CellWeights WeightsOf(CutNode node) const;
-  bool IsChanged(CutNode node) const { return node < is_changed_.size() && is_changed_[node] != 0; }
   void MarkChanged(CutNode node);
   void MarkReseen(const SceneChanges& changes);
 
@@ -72,6 +75,7 @@ class LabelledCells {
   std::unique_ptr<Tetrahedra> tetrahedra_;
   std::vector<char> is_changed_;  // By node.
   std::vector<CutNode> changed_nodes_;
+  std::vector<CutNode> reseen_nodes_;  // Their weights are as they were, unless they are changed.
   std::vector<Slot> redrawn_;
   std::vector<char> is_reseen_;  // By slot.
   std::vector<Slot> reseen_;

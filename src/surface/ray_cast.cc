@@ -96,6 +96,20 @@ std::uint16_t* CountFor(std::array<std::uint16_t, 4>* counts, int i) {
   return &(*counts)[static_cast<std::size_t>(i)];
 }
 
+RayCounts CountsOf(Cell cell, Vertex vertex) {
+  const auto corner = static_cast<std::size_t>(cell->index(vertex));
+  const CellInfo& info = cell->info();
+  return {info.num_passing[corner], info.num_crossing[corner], info.num_behind[corner]};
+}
+
+void ClearCounts(Cell cell, Vertex vertex) {
+  const int corner = cell->index(vertex);
+  CellInfo& info = cell->info();
+  *CountFor(&info.num_passing, corner) = 0;
+  *CountFor(&info.num_crossing, corner) = 0;
+  *CountFor(&info.num_behind, corner) = 0;
+}
+
 void Increase(std::uint16_t* count) {
   if (*count < std::numeric_limits<std::uint16_t>::max()) ++*count;
 }
@@ -156,23 +170,30 @@ Cell FindRayCell(const Triangulation& triangulation,
   return FindRayCellInStar(triangulation, vertex, camera, side, star);
 }
 
+bool RayStar::IsChanged(std::size_t cell, Vertex vertex) const {
+  const RayCounts now = CountsOf(cells[cell], vertex);
+  const RayCounts& before = counts_before[cell];
+  return now.num_passing != before.num_passing || now.num_crossing != before.num_crossing ||
+         now.num_behind != before.num_behind;
+}
+
 void CastRays(const Triangulation& triangulation,
               Vertex vertex,
               const std::vector<SceneRay>& rays,
-              std::vector<Cell>* star) {
-  FindStar(vertex, star);
-  Cell front;
-  for (const Cell cell : *star) {
-    if (triangulation.is_infinite(cell)) continue;
-    const int i = cell->index(vertex);
-    CellInfo& info = cell->info();
-    *CountFor(&info.num_passing, i) = 0;
-    *CountFor(&info.num_crossing, i) = 0;
-    *CountFor(&info.num_behind, i) = 0;
-    if (front == Cell()) front = cell;
+              RayStar* star) {
+  FindStar(vertex, &star->cells);
+  star->cells.erase(std::remove_if(star->cells.begin(),
+                                   star->cells.end(),
+                                   [&](Cell cell) { return triangulation.is_infinite(cell); }),
+                    star->cells.end());
+  star->counts_before.clear();
+  for (const Cell cell : star->cells) {
+    star->counts_before.push_back(CountsOf(cell, vertex));
+    ClearCounts(cell, vertex);
   }
+  if (star->cells.empty()) return;
+  Cell front = star->cells.front();
   Cell back = front;
-  if (front == Cell()) return;
   for (const SceneRay& ray : rays) {
     const Point camera = ToCgal(ray.camera);
     const Cell passed = FindRayCell(triangulation, vertex, camera, RaySide::kTowardsCamera, front);

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "surface/tetrahedra.h"
@@ -28,12 +30,27 @@ Cell FindRayCellInStar(const Triangulation& triangulation,
                        RaySide side,
                        const std::vector<Cell>& star);
 
-// Counts the vertex's rays in the cells around it, in place of what was
-// counted for this vertex before. `star` becomes the cells around it, infinite ones included.
-// Thread-safe for different vertices while the triangulation stays as it is.
+// Of the rays of one of a cell's vertices, as CellInfo has them.
+struct RayCounts {
+  std::uint16_t num_passing = 0;
+  std::uint16_t num_crossing = 0;
+  std::uint16_t num_behind = 0;
+};
+
+// The finite cells around a vertex, and what was counted in each before.
+struct RayStar {
+  std::vector<Cell> cells;
+  std::vector<RayCounts> counts_before;
+
+  // Whether another number is counted in the cell now.
+  bool IsChanged(std::size_t cell, Vertex vertex) const;
+};
+
+// Counts the vertex's rays in the cells around it, `star`, in place of what was counted for this
+// vertex before. Thread-safe for different vertices while the triangulation stays as it is.
 void CastRays(const Triangulation& triangulation,
               Vertex vertex,
               const std::vector<SceneRay>& rays,
-              std::vector<Cell>* star);
+              RayStar* star);
 
 }  // namespace plumb

@@ -6,12 +6,17 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "image/parallel_for.h"
 #include "surface/outward_face.h"
 
 namespace plumb {
 namespace {
+
+// What one thread looks at, at a time.
+constexpr int kNodesOfPart = 2048;
+constexpr int kFacesOfPart = 512;
 
 std::int32_t BlockIndex(double position, double side) {
   constexpr double kLimit =
@@ -24,13 +29,13 @@ std::int32_t BlockIndex(double position, double side) {
 SurfaceMesh::SurfaceMesh(const SurfaceOptions& options)
     : block_side_(options.block_side),
       num_threads_(options.num_threads),
-      support_(options),
+      max_edge_ratio_(options.max_edge_ratio),
       islands_(options.min_island_faces) {}
 
 MeshDelta SurfaceMesh::Update(const LabelledCells& cells) {
-  num_checked_ = 0;
-  DetachFaces(cells);
-  CheckFaces(cells);
+  std::vector<BorderFace> border = FindBorder(cells);
+  Decide(cells, &border);
+  AttachFaces(cells.scene(), border);
   RemoveDetached();
   MoveRedrawn(cells);
   std::vector<FaceIdx> candidates = islands_.Update(touched_slots_, &pool_);
@@ -61,56 +66,79 @@ MeshDelta SurfaceMesh::Snapshot(const RayScene& scene) const {
   return snapshot;
 }
 
-// All faces that may have changed; most of them are attached again.
-void SurfaceMesh::DetachFaces(const LabelledCells& cells) {
-  for (const CutNode node : cells.changed_nodes()) {
-    const bool is_there = cells.tetrahedra().CellOf(node) != Cell();
-    for (std::uint32_t i = 0; i < DynamicCut::kDegree; ++i) {
-      const std::uint32_t arc = DynamicCut::kDegree * node + i;
-      DetachAt(arc);
-      if (is_there) DetachAt(cells.cut().SisterOf(arc));
+// Detaches all faces that may have changed; most of them are attached again.
+std::vector<SurfaceMesh::BorderFace> SurfaceMesh::FindBorder(const LabelledCells& cells) {
+  const std::vector<CutNode>& nodes = cells.changed_nodes();
+  std::vector<BorderPart> parts(nodes.size() / kNodesOfPart + 1);
+  const auto num_nodes = static_cast<int>(nodes.size());
+  ParallelFor(num_threads_, num_nodes, kNodesOfPart, [&](int begin, int end) {
+    BorderPart* part = &parts[static_cast<std::size_t>(begin / kNodesOfPart)];
+    for (int i = begin; i < end; ++i) FindAt(cells, nodes[static_cast<std::size_t>(i)], part);
+  });
+  std::vector<BorderFace> border;
+  for (const BorderPart& part : parts) {
+    border.insert(border.end(), part.border.begin(), part.border.end());
+    for (const FaceIdx face : part.attached) {
+      if (pool_.IsDetached(face)) continue;
+      pool_.Detach(face);
+      detached_.push_back(face);
     }
   }
+  return border;
 }
 
-void SurfaceMesh::DetachAt(std::uint32_t arc) {
-  const FaceIdx face = pool_.AtArc(arc);
-  if (face == kNoFace) return;
-  pool_.Detach(face);
-  detached_.push_back(face);
+// A border face between two changed cells, at one of them.
+void SurfaceMesh::FindAt(const LabelledCells& cells, CutNode node, BorderPart* part) const {
+  const auto note_attached = [&](std::uint32_t arc) {
+    if (pool_.AtArc(arc) != kNoFace) part->attached.push_back(pool_.AtArc(arc));
+  };
+  const DynamicCut& cut = cells.cut();
+  const bool is_there = cells.tetrahedra().CellOf(node) != Cell();
+  for (std::uint32_t i = 0; i < DynamicCut::kDegree; ++i) {
+    const std::uint32_t arc = DynamicCut::kDegree * node + i;
+    note_attached(arc);
+    if (!is_there) continue;
+    const std::uint32_t sister = cut.SisterOf(arc);
+    note_attached(sister);
+    const bool is_free = cut.IsAtSource(node);
+    const bool is_hull = sister == DynamicCut::kNoArc;
+    const CutNode neighbor = is_hull ? kNoCutNode : DynamicCut::NodeOf(sister);
+    if ((is_hull || cut.IsAtSource(neighbor)) == is_free) continue;
+    if (!is_hull && neighbor < node && cells.IsChanged(neighbor)) continue;
+    const std::uint32_t occupied = is_free ? sister : arc;
+    const Cell cell = cells.tetrahedra().CellOf(DynamicCut::NodeOf(occupied));
+    part->border.push_back(
+        {occupied, OutwardFace(cell, static_cast<int>(DynamicCut::SlotOf(occupied)))});
+  }
 }
 
-void SurfaceMesh::CheckFaces(const LabelledCells& cells) {
-  for (const CutNode node : cells.changed_nodes()) {
-    if (cells.tetrahedra().CellOf(node) == Cell()) continue;
-    const bool is_free = cells.cut().IsAtSource(node);
-    for (std::uint32_t i = 0; i < DynamicCut::kDegree; ++i) {
-      const std::uint32_t arc = DynamicCut::kDegree * node + i;
-      const std::uint32_t sister = cells.cut().SisterOf(arc);
-      const bool is_free_beyond =
-          sister == DynamicCut::kNoArc || cells.cut().IsAtSource(DynamicCut::NodeOf(sister));
-      if (is_free_beyond != is_free) CheckFace(cells, is_free ? sister : arc);
+// Which border faces stay in the mesh.
+void SurfaceMesh::Decide(const LabelledCells& cells, std::vector<BorderFace>* border) {
+  std::vector<std::size_t> num_checked(border->size() / kFacesOfPart + 1, 0);
+  const auto num_faces = static_cast<int>(border->size());
+  ParallelFor(num_threads_, num_faces, kFacesOfPart, [&](int begin, int end) {
+    FaceSupport support(cells.scene(), max_edge_ratio_);
+    for (int i = begin; i < end; ++i) {
+      BorderFace& face = (*border)[static_cast<std::size_t>(i)];
+      face.known = pool_.FindDetached(face.slots);
+      face.is_kept = face.known != kNoFace && !cells.IsReseen(face.slots[0]) &&
+                     !cells.IsReseen(face.slots[1]) && !cells.IsReseen(face.slots[2]);
+      if (face.is_kept) continue;
+      ++num_checked[static_cast<std::size_t>(begin / kFacesOfPart)];
+      face.is_kept = support.IsSupported(face.slots);
     }
-  }
-  support_.ForgetRays();
+  });
+  num_checked_ = std::accumulate(num_checked.begin(), num_checked.end(), std::size_t{0});
 }
 
-// A face between free and occupied; `arc` is that of the occupied side.
-void SurfaceMesh::CheckFace(const LabelledCells& cells, std::uint32_t arc) {
-  if (pool_.AtArc(arc) != kNoFace) return;
-  const Cell cell = cells.tetrahedra().CellOf(DynamicCut::NodeOf(arc));
-  const FaceSlots slots = OutwardFace(cell, static_cast<int>(DynamicCut::SlotOf(arc)));
-  const FaceIdx known = pool_.FindDetached(slots);
-  const bool is_as_known = known != kNoFace && !cells.IsReseen(slots[0]) &&
-                           !cells.IsReseen(slots[1]) && !cells.IsReseen(slots[2]);
-  if (!is_as_known) {
-    ++num_checked_;
-    if (!support_.IsSupported(cells.scene(), slots)) return;
-  }
-  if (known != kNoFace) {
-    pool_.Attach(known, arc);
-  } else {
-    AddFace(cells.scene(), arc, slots);
+void SurfaceMesh::AttachFaces(const RayScene& scene, const std::vector<BorderFace>& border) {
+  for (const BorderFace& face : border) {
+    if (!face.is_kept) continue;
+    if (face.known != kNoFace) {
+      pool_.Attach(face.known, face.arc);
+    } else {
+      AddFace(scene, face.arc, face.slots);
+    }
   }
 }
 

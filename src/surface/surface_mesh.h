@@ -32,10 +32,24 @@ class SurfaceMesh {
   std::size_t num_checked() const { return num_checked_; }  // By the last update.
 
  private:
-  void DetachFaces(const LabelledCells& cells);
-  void DetachAt(std::uint32_t arc);
-  void CheckFaces(const LabelledCells& cells);
-  void CheckFace(const LabelledCells& cells, std::uint32_t arc);
+  // A face between free and occupied at a changed cell.
+  struct BorderFace {
+    std::uint32_t arc = kNoFaceArc;  // That of the occupied side.
+    FaceSlots slots = {kNoSlot, kNoSlot, kNoSlot};
+    FaceIdx known = kNoFace;  // The detached face that it is.
+    bool is_kept = false;
+  };
+
+  // What one thread finds at changed cells.
+  struct BorderPart {
+    std::vector<FaceIdx> attached;  // Some of them twice.
+    std::vector<BorderFace> border;
+  };
+
+  std::vector<BorderFace> FindBorder(const LabelledCells& cells);
+  void FindAt(const LabelledCells& cells, CutNode node, BorderPart* part) const;
+  void Decide(const LabelledCells& cells, std::vector<BorderFace>* border);
+  void AttachFaces(const RayScene& scene, const std::vector<BorderFace>& border);
   void RemoveDetached();
   void AddFace(const RayScene& scene, std::uint32_t arc, const FaceSlots& slots);
   void MoveRedrawn(const LabelledCells& cells);
@@ -47,7 +61,7 @@ class SurfaceMesh {
 
   double block_side_;  // In map units.
   int num_threads_;
-  FaceSupport support_;
+  double max_edge_ratio_;
   IslandFinder islands_;
   FacePool pool_;
   std::size_t num_published_ = 0;

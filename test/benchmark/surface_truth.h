@@ -31,7 +31,7 @@ using LabelOf = std::function<bool(Cell)>;  // Whether a cell is free.
 
 // The faces of a labelling after the same filters as the product's.
 inline std::vector<FaceSlots> KeptFaces(const LabelledCells& cells, const LabelOf& is_free) {
-  FaceSupport support(cells.options());
+  FaceSupport support(cells.scene(), cells.options().max_edge_ratio);
   FacePool pool;
   std::vector<Slot> slots;
   std::uint32_t arc = 0;
@@ -40,7 +40,7 @@ inline std::vector<FaceSlots> KeptFaces(const LabelledCells& cells, const LabelO
     for (int i = 0; i < 4; ++i) {
       if (!is_free(cell->neighbor(i))) continue;
       const FaceSlots face = OutwardFace(cell, i);
-      if (!support.IsSupported(cells.scene(), face)) continue;
+      if (!support.IsSupported(face)) continue;
       pool.Add(arc++, face, {}, {});
       slots.insert(slots.end(), face.begin(), face.end());
     }
@@ -163,7 +163,7 @@ inline EnergySeconds TimeEnergy(const LabelledCells& cells) {
   EnergySeconds seconds;
   CpuWatch watch;
   std::vector<SceneRay> rays;
-  std::vector<Cell> star;
+  RayStar star;
   for (const Vertex vertex : triangulation.finite_vertex_handles()) {
     cells.scene().RaysOf(vertex->info().slot, &rays);
     CastRays(triangulation, vertex, rays, &star);  // Counts again what is counted already.

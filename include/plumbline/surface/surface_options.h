@@ -23,7 +23,7 @@ struct SurfaceOptions {
 
   // A landmark stands on a lattice of the pitch d / 2^bits, d being the distance of its nearest
   // camera, rounded down to a power of two. A move within the pitch changes no tetrahedra.
-  int landmark_lattice_bits = 10;
+  int landmark_lattice_bits = 9;
 
   // The same for the camera of a ray, d being that of the ray's landmark: the ray is cast anew if
   // the camera's place changes.
