@@ -8,6 +8,13 @@
 #include <limits>
 
 namespace plumb {
+namespace {
+
+// Of the angle between a face's normal and a ray that tells of it. On simulated facades, a fifth is
+// worth half a percent of surface that is near the truth, and cost 0.001 of F-score at 20 mm.
+constexpr double kMinSeenCosine = 0.2;
+
+}  // namespace
 
 const std::vector<SceneRay>& FaceSupport::RaysOf(Slot slot) {
   Known& known = known_[slot % known_.size()];
@@ -22,14 +29,17 @@ bool FaceSupport::IsSupported(const FaceSlots& slots) {
   std::array<Eigen::Vector3d, 3> corners;
   for (std::size_t k = 0; k < 3; ++k) corners[k] = scene_.PlaceOf(slots[k]);
   const Eigen::Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+  const double min_squared = kMinSeenCosine * kMinSeenCosine * normal.squaredNorm();
   double nearest_squared = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < 3; ++k) {
     bool is_seen = false;
     std::size_t num_common = 0;
     for (const SceneRay& ray : RaysOf(slots[k])) {
       const Eigen::Vector3d to_camera = ray.camera - corners[k];
-      nearest_squared = std::min(nearest_squared, to_camera.squaredNorm());
-      if (!(normal.dot(to_camera) > 0.0)) continue;
+      const double squared = to_camera.squaredNorm();
+      nearest_squared = std::min(nearest_squared, squared);
+      const double along_normal = normal.dot(to_camera);
+      if (!(along_normal > 0.0 && along_normal * along_normal > min_squared * squared)) continue;
       is_seen = true;
       if (k == 0) {
         common_.resize(++num_common);
