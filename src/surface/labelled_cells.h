@@ -35,8 +35,8 @@ class LabelledCells {
   const SurfaceOptions& options() const { return options_; }
 
   // By the last Apply: nodes whose cells are gone, other, or stand otherwise to the mesh (their
-  // label, a neighbour, or the rays of a landmark of theirs changed), each once; and landmarks drawn
-  // elsewhere.
+  // label, a neighbour, or the rays of a landmark of theirs changed), each once; and landmarks
+  // drawn elsewhere.
   const std::vector<CutNode>& changed_nodes() const { return changed_nodes_; }
   bool IsChanged(CutNode node) const { return node < is_changed_.size() && is_changed_[node] != 0; }
   const std::vector<Slot>& redrawn() const { return redrawn_; }

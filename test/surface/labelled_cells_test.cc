@@ -6,6 +6,7 @@
 
 #include "test/surface/cell_checks.h"
 #include "test/surface/random_map.h"
+#include "test/surface/simple_maps.h"
 
 namespace plumb {
 namespace {
@@ -55,6 +56,29 @@ TEST(LabelledCells, AreTheSameAfterARestart) {
     if (HasFatalFailure()) FAIL() << "step " << step;
     map.Change();
   }
+}
+
+// A ray counts in one cell before its landmark and in one behind it.
+TEST(LabelledCells, WeighOnlyCellsWhoseRaysChange) {
+  LabelledCells cells{SurfaceOptions()};
+  SurfaceReport report;
+  cells.Apply(test::SimpleMap::Wall().Snapshot(), &report);
+  EXPECT_GT(report.num_cells_changed, 1000U);
+
+  MapDelta delta;
+  delta.sequence = 2;
+  ViewState view;
+  view.photo = PhotoId{10};
+  view.cam_from_map = Rigid3(Eigen::Quaterniond::Identity(), Eigen::Vector3d(-2, 5, -1));
+  delta.views_set = {view};
+  delta.observations_added = {{LandmarkId{7}, view.photo, 0, {0, 0}}};
+  SurfaceReport second;
+  cells.Apply(delta, &second);
+  EXPECT_EQ(second.num_rays_added, 1U);
+  EXPECT_GE(second.num_cells_changed, 1U);
+  EXPECT_LE(second.num_cells_changed, 2U);
+  test::ExpectCountsAreThoseFromScratch(cells);
+  test::ExpectLabelsAreThoseOfAFreshSolve(cells);
 }
 
 }  // namespace
