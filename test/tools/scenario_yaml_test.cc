@@ -41,6 +41,8 @@ TEST(ReadScenario, EveryShippedOneIsSoundAndReadsBackFromItsJson) {
     if (scenario.floor.num_photos == 0) {
       const Camera camera = MakeTrueCamera(scenario.lens);
       EXPECT_FALSE(PlanFlight(scenario.flight, camera, Building(), 1).empty());
+      EXPECT_EQ(BuildFacade(scenario.facade).plates.size(),
+                static_cast<std::size_t>(scenario.facade.num_targets));
     }
     EXPECT_NE(ToCameraYaml(MakeWrongCamera(scenario.lens)),
               ToCameraYaml(MakeTrueCamera(scenario.lens)));
