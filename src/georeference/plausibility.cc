@@ -3,6 +3,7 @@
 #include "georeference/plausibility.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "georeference/finding_text.h"
@@ -12,10 +13,18 @@ namespace {
 
 using Severity = Finding::Severity;
 
-constexpr double kFeetPerMetre = 1.0 / 0.3048;
+// What surveys are kept in by mistake.
+struct LengthUnit {
+  const char* name;
+  double per_metre;
+};
+constexpr std::array<LengthUnit, 4> kOtherUnits = {{{"feet", 1.0 / 0.3048},
+                                                    {"centimetres", 100.0},
+                                                    {"millimetres", 1000.0},
+                                                    {"kilometres", 0.001}}};
 
 // GPS gives the scale of a flight of 15 m to some 5 %, the face of a marker to 2 %.
-constexpr double kFeetTolerance = 0.1;
+constexpr double kUnitTolerance = 0.1;
 
 // A marker's size is off by more than this only if it is another marker, or another unit.
 constexpr double kDiameterTolerance = 0.1;
@@ -26,7 +35,14 @@ constexpr double kMaxNormalizedError = 4.0;
 // The first photo is taken to be upright; pilots tilt cameras by less than this.
 constexpr double kMaxTiltDeg = 50.0;
 
-bool IsFeet(double ratio) { return std::abs(ratio / kFeetPerMetre - 1.0) < kFeetTolerance; }
+// The unit that makes lengths so many times as large as in metres; null if it is none of those.
+const char* OtherUnit(double ratio) {
+  const auto found =
+      std::find_if(kOtherUnits.begin(), kOtherUnits.end(), [&](const LengthUnit& unit) {
+        return std::abs(ratio / unit.per_metre - 1.0) < kUnitTolerance;
+      });
+  return found != kOtherUnits.end() ? found->name : nullptr;
+}
 
 void CheckUnit(const GeoreferencerOptions& options,
                const Survey& survey,
@@ -36,16 +52,16 @@ void CheckUnit(const GeoreferencerOptions& options,
   if (gps && gps->scale_ratio) {
     const double ratio = *gps->scale_ratio;
     const double error = std::abs(ratio - 1.0) / std::max(gps->scale_ratio_sigma, 1e-3);
-    if (IsFeet(ratio)) {
-      return AddFinding(
-          Severity::kError,
-          "feet",
-          Text(survey.source,
-               ": the model would be ",
-               ratio,
-               " times as large as by "
-               "the photos' GPS: the survey seems to be in feet; convert it to metres"),
-          findings);
+    if (const char* unit = OtherUnit(ratio)) {
+      return AddFinding(Severity::kError,
+                        "unit",
+                        Text(survey.source,
+                             ": the model would be ",
+                             ratio,
+                             " times as large as by the photos' GPS: the survey seems to be in ",
+                             unit,
+                             "; convert it to metres"),
+                        findings);
     }
     if (error > kMaxNormalizedError) {
       AddFinding(Severity::kWarning,
@@ -62,18 +78,21 @@ void CheckUnit(const GeoreferencerOptions& options,
   if (!georeference->marker_diameter_m || options.marker_diameter_m <= 0.0) return;
   const double diameter_m = *georeference->marker_diameter_m;
   const double ratio = diameter_m / options.marker_diameter_m;
-  // GPS, where it is, has ruled feet out.
+  // GPS, where it is, has ruled other units out.
   const bool has_scale_by_gps = gps && gps->scale_ratio;
-  if (IsFeet(ratio) && !has_scale_by_gps) {
+  const char* unit = has_scale_by_gps ? nullptr : OtherUnit(ratio);
+  if (unit != nullptr) {
     AddFinding(Severity::kError,
-               "feet",
+               "unit",
                Text(survey.source,
                     ": the markers would be ",
                     diameter_m,
                     " m across instead of ",
                     options.marker_diameter_m,
-                    ": the survey seems to be in feet; convert it to metres, or give the markers' "
-                    "true diameter (marker_diameter_m)"),
+                    ": the survey seems to be in ",
+                    unit,
+                    "; convert it to metres, or give the markers' true diameter "
+                    "(marker_diameter_m)"),
                findings);
   } else if (std::abs(ratio - 1.0) > kDiameterTolerance) {
     AddFinding(Severity::kWarning,

@@ -69,8 +69,9 @@ bool CheckHeader(const std::vector<std::uint8_t>& bytes,
   const bool is_swapped =
       size.width_px == expected.height_px && size.height_px == expected.width_px;
   detail += is_swapped
-                ? "; a program has rotated it, and only originals fit the camera's calibration"
-                : "; use the camera's originals and its own calibration";
+                ? "; a program has rotated it, or the camera file is of photos held upright: only "
+                  "originals fit the camera's calibration"
+                : "; use the camera's originals, and the camera file of photos of this size";
   return Refuse(PhotoStatus::kWrongSize, std::move(detail), analysis);
 }
 

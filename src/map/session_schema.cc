@@ -130,9 +130,10 @@ void CheckIsSameCamera(const std::string& path, const Camera& stored, const Came
             given.lens()[static_cast<std::size_t>(i)]);
   }
   if (difference.tellp() == 0) return;
-  throw std::runtime_error(path + ": the session was made with another camera (" +
-                           difference.str() +
-                           "); use the camera file it was made with or another session folder");
+  throw std::runtime_error(
+      path + ": the session was made with another camera (" + difference.str() +
+      "); use the camera file it was made with or, if that one was wrong, another "
+      "session folder");
 }
 
 void CreateTables(sqlite::Database* database, const Camera& camera) {

@@ -30,7 +30,8 @@ void CheckInput(const MarkerDetectorOptions& options, const cv::Mat& gray, const
     throw std::invalid_argument(
         "the photo has " + std::to_string(gray.cols) + " x " + std::to_string(gray.rows) +
         " pixels, but the camera's have " + std::to_string(camera->width_px()) + " x " +
-        std::to_string(camera->height_px()) + "; use the camera's originals");
+        std::to_string(camera->height_px()) +
+        "; use the camera's originals, and the camera file of photos of this size");
   }
 }
 

@@ -124,9 +124,15 @@ Rgb ColorAt(Palette palette, double place) {
   return Palettes::Get().At(palette, static_cast<std::size_t>(idx));
 }
 
+Rgb UnseenColor(Palette palette) {
+  // Grey is in the middle of cividis. By the matrices of Vienot, Brettel and Mollon (1999) no
+  // colour of it is nearer than 96 to this orange, of 0..255 an axis.
+  return palette == Palette::kPaper ? Rgb{90, 90, 90} : Rgb{220, 90, 0};
+}
+
 Rgb ColorOf(Layer layer, Palette palette, const Measure& measure, const FaceQuality& quality) {
   if (layer == Layer::kPlain) return kPlainColor;
-  if (quality.num_views == 0) return kUnseenColor;
+  if (quality.num_views == 0) return UnseenColor(palette);
   const Scale scale = ScaleOf(layer, measure.metres_per_map_unit.has_value());
   switch (layer) {
     case Layer::kGsd:

@@ -76,8 +76,8 @@ void DrawBar(Palette palette, cv::Mat* picture) {
   }
   cv::rectangle(*picture, {kLeft_px, kTop_px}, {kRight_px, kBottom_px}, kInk, 2);
   const cv::Rect unseen(kLegendWidth_px - 102, kTop_px, 70, kBottom_px - kTop_px);
-  cv::rectangle(
-      *picture, unseen, cv::Scalar(kUnseenColor[0], kUnseenColor[1], kUnseenColor[2]), cv::FILLED);
+  const Rgb color = UnseenColor(palette);
+  cv::rectangle(*picture, unseen, cv::Scalar(color[0], color[1], color[2]), cv::FILLED);
   cv::rectangle(*picture, unseen, kInk, 2);
   Write("unseen", {unseen.x + unseen.width / 2, kTicks_px}, kSmallText, picture);
 }

@@ -166,7 +166,8 @@ std::string GeoreferencerRos::LoadSurveyFile(const std::string& path,
     if (georeferencer_) {
       const std::optional<Finding> elsewhere = georeferencer_->FindElsewhere(survey, frame);
       if (elsewhere) return elsewhere->text;
-      georeferencer_->SetSurvey(survey);
+      const std::string trouble = TryPlacing(survey);
+      if (!trouble.empty()) return trouble;
     }
     survey_ = survey;
   } catch (const std::exception& error) {
@@ -177,6 +178,24 @@ std::string GeoreferencerRos::LoadSurveyFile(const std::string& path,
   num_logged_.clear();
   has_news_ = true;
   return {};
+}
+
+// Hands the survey on, unless it does not place the map and the one before does: then why not.
+std::string GeoreferencerRos::TryPlacing(const Survey& survey) {
+  const bool was_placed = survey_ && georeference_.source == plumbline::Georeference::TARGETS;
+  georeferencer_->SetSurvey(survey);
+  if (!was_placed) return {};
+  const Georeference& placed = georeferencer_->Update();
+  if (placed.source == GeoreferenceSource::kTargets) return {};
+  const auto reason =
+      std::find_if(placed.findings.begin(), placed.findings.end(), [](const Finding& finding) {
+        return finding.code != "gps_only";
+      });
+  const std::string text =
+      reason != placed.findings.end() ? reason->text : survey.source + ": does not place the map";
+  georeferencer_->SetSurvey(*survey_);
+  has_news_ = true;
+  return text + " (to use it all the same, load an empty path before)";
 }
 
 void GeoreferencerRos::UnloadSurvey() {

@@ -33,6 +33,7 @@ class GeoreferencerRos {
   bool OnLoadSurvey(plumbline::LoadSurvey::Request& request,
                     plumbline::LoadSurvey::Response& response);
   std::string LoadSurveyFile(const std::string& path, const SurveyReading& reading);
+  std::string TryPlacing(const Survey& survey);
   void UnloadSurvey();
   void OnTimer();
   void Update();

@@ -144,7 +144,7 @@ visualization_msgs::MarkerArray DrawFrusta(const MapReplica& map,
   const std::vector<Rigid3> map_from_cams = MapFromCams(map);
   const double depth = kFrustumDepth * CameraSpacing(map_from_cams);
   const auto rays = CornerRays(camera);
-  auto others = LineList(header, "cameras", 0.04 * depth, Color(0.0F, 0.3F, 0.8F, 1.0F));
+  auto others = LineList(header, "cameras", 0.05 * depth, Color(0.05F, 0.05F, 0.05F, 1.0F));
   auto newest = LineList(header, "newest_camera", 0.12 * depth, Color(1.0F, 0.4F, 0.0F, 1.0F));
   for (std::size_t i = 0; i < map_from_cams.size(); ++i) {
     const bool is_newest = i + 1 == map_from_cams.size();

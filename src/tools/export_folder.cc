@@ -39,6 +39,14 @@ std::string FingerprintOf(const std::string& path) {
   return text.str();
 }
 
+// The path with the first number behind it under which there is nothing yet.
+std::string FreeName(const std::string& path) {
+  for (int number = 1;; ++number) {
+    const std::string name = path + ".kept" + std::to_string(number);
+    if (!fs::exists(name)) return name;
+  }
+}
+
 }  // namespace
 
 std::string ExportState(std::uint32_t map_sequence,
@@ -61,6 +69,24 @@ ExportFolder::ExportFolder(const std::string& path) : path_(path) {
     if (relative.empty() || relative.is_absolute() || *relative.begin() == "..") continue;
     entry_of_name_[name] = {entry["of"], entry["fingerprint"]};
   }
+}
+
+std::vector<std::string> ExportFolder::SetAside(const std::vector<std::string>& names) {
+  std::vector<std::string> lines;
+  for (const std::string& name : names) {
+    if (!fs::is_regular_file(PathOf(name)) || IsUnchanged(name)) continue;
+    const std::string aside = FreeName(PathOf(name));
+    std::error_code error;
+    fs::rename(PathOf(name), aside, error);
+    if (error) {
+      throw std::runtime_error(
+          PathOf(name) + ": Plumbline did not write it like this, and it cannot be renamed: " +
+          error.message() + "; move it away");
+    }
+    lines.push_back("kept " + PathOf(name) + ", as Plumbline did not write it like this, as " +
+                    aside);
+  }
+  return lines;
 }
 
 void ExportFolder::Add(const std::vector<std::string>& names, const std::string& state) {

@@ -23,6 +23,10 @@ class ExportFolder {
   // A list that cannot be read counts as none: nothing is deleted then.
   explicit ExportFolder(const std::string& path);
 
+  // To be called before files of these names are written: renames those that are there and that
+  // Plumbline did not write as they are, and gives a line for each. Throws like Add.
+  std::vector<std::string> SetAside(const std::vector<std::string>& names);
+
   // Takes note of files just written, by their names in the folder; `state` empty: of any map.
   // Throws std::runtime_error naming the file and the cause.
   void Add(const std::vector<std::string>& names, const std::string& state);

@@ -43,18 +43,20 @@ ExportedSession ExportSession(const SessionStore& store,
   const MapDelta& snapshot = map.snapshot;
   const SessionFrame frame(store, map);
   const auto& georeference = frame.georeference();
-  if (!frame.outdated().empty()) exported.lines.push_back(frame.outdated());
   const std::string colmap = folder + "/colmap";
   const std::string ply = folder + "/points.ply";
   std::vector<std::string> names = {
       "colmap/cameras.txt", "colmap/images.txt", "colmap/points3D.txt", "points.ply"};
+  if (georeference) names.emplace_back("frame.json");
+  ExportFolder files(folder);
+  exported.lines = files.SetAside(names);
+  if (!frame.outdated().empty()) exported.lines.push_back(frame.outdated());
   ExportColmapText(georeference ? Transformed(snapshot, georeference->enu_from_map) : snapshot,
                    store.camera(),
                    colmap);
   ExportPly(Placed(snapshot.landmarks_set, frame), ply, frame.Comments());
   if (georeference) {
     WriteFileAtomically(folder + "/frame.json", frame.Json());
-    names.emplace_back("frame.json");
     exported.lines.insert(exported.lines.end(),
                           {"wrote " + colmap + " (metres, enu about " + frame.OriginText() + ')',
                            "wrote " + ply + " (" + frame.Name() + ')',
@@ -63,7 +65,6 @@ ExportedSession ExportSession(const SessionStore& store,
     exported.lines.insert(exported.lines.end(), {"wrote " + colmap, "wrote " + ply});
     if (!snapshot.views_set.empty()) exported.lacks = kNoScale;
   }
-  ExportFolder files(folder);
   files.Add(names, frame.state());
   for (std::string& line : files.DeleteStale(frame.state())) {
     exported.lines.push_back(std::move(line));

@@ -55,20 +55,19 @@ Json MeshSession(const SurfaceOptions& options,
   report["blocks"] = update.mesh.blocks.size();
   std::filesystem::create_directories(folder);
   std::vector<std::string> names = {"mesh.ply", "mesh.obj"};
+  if (frame.georeference()) names.emplace_back("frame.json");
+  ExportFolder files(folder);
+  std::vector<std::string> lines = files.SetAside(names);
   Place(frame, &update.mesh);
   ExportMeshPly(update.mesh, folder + "/mesh.ply", frame.Comments());
   ExportMeshObj(update.mesh, folder + "/mesh.obj", frame.Comments());
-  if (frame.georeference()) {
-    WriteFileAtomically(folder + "/frame.json", frame.Json());
-    names.emplace_back("frame.json");
-  }
-  ExportFolder files(folder);
+  if (frame.georeference()) WriteFileAtomically(folder + "/frame.json", frame.Json());
   files.Add(names, frame.state());
-  const std::vector<std::string> stale = files.DeleteStale(frame.state());
+  for (std::string& line : files.DeleteStale(frame.state())) lines.push_back(std::move(line));
   report["total_s"] = watch.Seconds();
   report["frame"] = frame.georeference() ? frame.Name() + ", metres" : "map, scale free";
   for (const std::string& name : names) report["files"].push_back(folder + '/' + name);
-  report["stale"] = stale;
+  report["stale"] = lines;
   if (!frame.outdated().empty()) report["outdated"] = frame.outdated();
   return report;
 }

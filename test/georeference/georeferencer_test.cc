@@ -248,19 +248,23 @@ TEST(Georeferencer, WarnsOfTargetsOnALine) {
   EXPECT_EQ(on.source, GeoreferenceSource::kNone);
 }
 
-TEST(Georeferencer, NoticesFeetByTheSizeOfTheMarkers) {
-  SurveyScene scene = MakeSurveyScene();
-  for (SurveyTarget& target : scene.survey.targets) target.point_in_crs /= 0.3048;
-  Georeferencer georeferencer = MakeGeoreferencer(scene);
-  const Georeference& georeference = georeferencer.Update();
-  EXPECT_EQ(georeference.source, GeoreferenceSource::kNone);
-  const Finding* feet = FindFinding(georeference, "feet");
-  ASSERT_NE(feet, nullptr);
-  EXPECT_THAT(feet->text,
+TEST(Georeferencer, NoticesOtherUnitsByTheSizeOfTheMarkers) {
+  const auto find_unit = [](double per_metre) {
+    SurveyScene scene = MakeSurveyScene();
+    for (SurveyTarget& target : scene.survey.targets) target.point_in_crs *= per_metre;
+    Georeferencer georeferencer = MakeGeoreferencer(scene);
+    const Georeference& georeference = georeferencer.Update();
+    EXPECT_EQ(georeference.source, GeoreferenceSource::kNone);
+    const Finding* unit = FindFinding(georeference, "unit");
+    return unit != nullptr ? unit->text : "";
+  };
+  EXPECT_THAT(find_unit(1.0 / 0.3048),
               AllOf(HasSubstr("survey.csv"),
                     HasSubstr("1.64"),
                     HasSubstr("feet"),
                     HasSubstr("convert it to metres")));
+  EXPECT_THAT(find_unit(1000.0), HasSubstr("millimetres"));
+  EXPECT_THAT(find_unit(100.0), HasSubstr("centimetres"));
 }
 
 TEST(Georeferencer, NoticesMarkersOfAnotherSize) {

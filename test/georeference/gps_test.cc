@@ -101,18 +101,25 @@ TEST_F(GpsTest, NeedsHeightsAndMoreThanALine) {
   EXPECT_FALSE(georeferencer.Update().gps);
 }
 
-TEST_F(GpsTest, NoticesFeetByTheScale) {
-  const Eigen::Vector3d origin = scene_.survey.targets[0].point_in_crs;
-  for (SurveyTarget& target : scene_.survey.targets) {
-    target.point_in_crs = origin + (target.point_in_crs - origin) / 0.3048;
+TEST_F(GpsTest, NoticesOtherUnitsByTheScale) {
+  const std::vector<SurveyTarget> in_metres = scene_.survey.targets;
+  const std::map<std::string, double> per_metre_of_unit = {
+      {"feet", 1.0 / 0.3048}, {"millimetres", 1000.0}, {"kilometres", 0.001}};
+  for (const auto& [name, per_metre] : per_metre_of_unit) {
+    SCOPED_TRACE(name);
+    scene_.survey.targets = in_metres;
+    const Eigen::Vector3d origin = in_metres[0].point_in_crs;
+    for (SurveyTarget& target : scene_.survey.targets) {
+      target.point_in_crs = origin + (target.point_in_crs - origin) * per_metre;
+    }
+    const Georeference georeference = Run();
+    EXPECT_EQ(georeference.source, GeoreferenceSource::kGps);  // What there is beside.
+    const Finding* unit = FindFinding(georeference, "unit");
+    ASSERT_NE(unit, nullptr);
+    EXPECT_EQ(unit->severity, Finding::Severity::kError);
+    EXPECT_THAT(unit->text,
+                AllOf(HasSubstr("times as large as by the photos' GPS"), HasSubstr(name)));
   }
-  const Georeference georeference = Run();
-  EXPECT_EQ(georeference.source, GeoreferenceSource::kGps);  // What there is beside.
-  const Finding* feet = FindFinding(georeference, "feet");
-  ASSERT_NE(feet, nullptr);
-  EXPECT_EQ(feet->severity, Finding::Severity::kError);
-  EXPECT_THAT(feet->text,
-              AllOf(HasSubstr("times as large as by the photos' GPS"), HasSubstr("feet")));
 }
 
 TEST_F(GpsTest, NoticesAnotherWrongScale) {

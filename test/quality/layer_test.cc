@@ -69,8 +69,16 @@ TEST(ColorOf, DoesNotDependOnTheOtherFaces) {  // Absolute: the same in every fl
 }
 
 TEST(ColorOf, TellsUnseenFacesFromAllOthers) {
-  for (const Layer layer : {Layer::kGsd, Layer::kRedundancy, Layer::kAccuracy}) {
-    EXPECT_EQ(ColorOf(layer, Palette::kPaper, MetricMeasure(), FaceQuality()), kUnseenColor);
+  for (const Palette palette : {Palette::kPaper, Palette::kColorBlind}) {
+    const Rgb unseen = UnseenColor(palette);
+    for (const Layer layer : {Layer::kGsd, Layer::kRedundancy, Layer::kAccuracy}) {
+      EXPECT_EQ(ColorOf(layer, palette, MetricMeasure(), FaceQuality()), unseen);
+    }
+    for (int i = 0; i < 256; ++i) {
+      const Rgb seen = ColorAt(palette, i / 255.0);
+      const Eigen::Vector3d apart(seen[0] - unseen[0], seen[1] - unseen[1], seen[2] - unseen[2]);
+      EXPECT_GT(apart.norm(), 100.0) << ToString(palette) << ' ' << i;
+    }
   }
   EXPECT_EQ(ColorOf(Layer::kPlain, Palette::kPaper, MetricMeasure(), FaceQuality()), kPlainColor);
 }
@@ -108,7 +116,7 @@ TEST(DrawLegend, HasTheColoursOfTheScaleFromPoorToGood) {
     };
     EXPECT_EQ(at(45), ColorAt(palette, 5.0 / 695.0));
     EXPECT_EQ(at(405), ColorAt(palette, 365.0 / 695.0));
-    EXPECT_EQ(at(kLegendWidth_px - 60), kUnseenColor);
+    EXPECT_EQ(at(kLegendWidth_px - 60), UnseenColor(palette));
   }
 }
 

@@ -193,6 +193,18 @@ class GeoreferenceTest(wire.FolderTest):
             self.assertIn(words, answer.message)
         self.assertEqual(self.georeferences.all()[-1].survey, before)
 
+    def load_what_does_not_place(self):
+        """Sound files that would leave the map without its place."""
+        in_mm = [{**row, **{key: 1000.0 * float(row[key]) for key in ("x_m", "y_m", "z_m")}}
+                 for row in self.survey]
+        for path, words in ((self.write_survey("two.csv", self.survey[:2]), "three that are not"),
+                            (self.write_survey("in_mm.csv", in_mm), "in millimetres")):
+            answer = self.load(path)
+            self.assertFalse(answer.success)
+            for word in (path.name, words, "survey.csv stays in use", "load an empty path before"):
+                self.assertIn(word, answer.message)
+        self.assertEqual(self.georeferences.all()[-1].source, "targets")
+
     def load_on_earth(self):
         """The same targets, 100 m from where the photos' GPS is."""
         transforms = wire.Heard("/tf", TFMessage)
@@ -267,6 +279,7 @@ class GeoreferenceTest(wire.FolderTest):
         self.wait_for_verdicts(NUM_PHOTOS)
         self.wait_for_all_targets()
 
+        self.load_what_does_not_place()
         path, ids = self.swapped()
         self.assertTrue(self.load(path).success)
         wrong = self.wait_for(lambda g: g.survey == str(path), "the other survey")

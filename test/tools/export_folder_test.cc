@@ -72,6 +72,26 @@ TEST_F(ExportFolderTest, KeepsWhatAPersonWroteOrChanged) {
   }
 }
 
+TEST_F(ExportFolderTest, SetsAsideWhatAPersonWroteOrChanged) {
+  Write("points.ply", "ours");
+  Write("colmap/images.txt", "ours");
+  ExportFolder(root_).Add({"points.ply", "colmap/images.txt"}, "map 1");
+  Write("points.ply", "cleaned by hand");
+  Write("mesh.obj", "a person's");
+  Write("mesh.obj.kept1", "from before");
+  ExportFolder files(root_);
+  const std::vector<std::string> names = {
+      "colmap/images.txt", "points.ply", "mesh.obj", "frame.json"};
+  EXPECT_THAT(
+      files.SetAside(names),
+      ElementsAre(HasSubstr(root_ + "/points.ply.kept1"), HasSubstr(root_ + "/mesh.obj.kept2")));
+  EXPECT_TRUE(Has("colmap/images.txt"));
+  EXPECT_FALSE(Has("points.ply"));
+  EXPECT_TRUE(Has("points.ply.kept1"));
+  EXPECT_TRUE(Has("mesh.obj.kept2"));
+  EXPECT_THAT(files.SetAside(names), IsEmpty());
+}
+
 TEST_F(ExportFolderTest, ADamagedListDeletesNothing) {
   Write("points.ply", "ours");
   Write("../outside.txt", "a person's");

@@ -24,7 +24,7 @@ struct GeoreferencerOptions {
   // that is a wrong target (RobustSimilarityOptions says why so).
   double max_bend_ratio = 0.0005;
 
-  // Outer diameter of the markers [m], to notice a survey in feet. 0: not known.
+  // Outer diameter of the markers [m], to notice a survey in another unit. 0: not known.
   double marker_diameter_m = 0.5;
 
   // Standard deviation of a GPS position from photo to photo, horizontally [m].

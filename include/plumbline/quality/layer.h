@@ -62,8 +62,9 @@ double PlaceOnScale(const Scale& scale, double value);
 
 Rgb ColorAt(Palette palette, double place);
 
-// No camera sees it: a grey that is on no palette.
-constexpr Rgb kUnseenColor = {90, 90, 90};
+// No camera sees it. Far from all colours of the palette; of that for the colour-blind, also to
+// eyes without red or green cones.
+Rgb UnseenColor(Palette palette);
 
 // Of kPlain, before shading.
 constexpr Rgb kPlainColor = {205, 200, 190};
