@@ -73,14 +73,14 @@ std::string Upper(std::string word) {
 std::vector<BannerLine> BannerLines(const PhotoVerdict& verdict, const PhotoCounts& counts) {
   std::string title = Upper(ToString(verdict.status)) + "  " + verdict.name;
   if (verdict.reason != RefusalReason::kNone) title += ": " + Spaced(ToString(verdict.reason));
-  std::vector<BannerLine> lines = {{title, 1.6, ColorOf(verdict.status)}};
-  for (const std::string& line : WrapText(verdict.hint, 68)) lines.push_back({line, 1.1, kWhite});
-  std::string facts = DescribeAgreement(verdict);
-  if (!facts.empty()) facts += ".  ";
-  facts += "Session: " + std::to_string(counts.num_accepted) + " accepted, " +
-           std::to_string(counts.num_waiting) + " waiting, " + std::to_string(counts.num_refused) +
-           " refused";
-  lines.push_back({facts, 0.9, kWhite});
+  std::vector<BannerLine> lines = {{title, 2.6, ColorOf(verdict.status)}};
+  const auto add = [&](const std::string& text) {
+    for (const std::string& line : WrapText(text, 36)) lines.push_back({line, 2.0, kWhite});
+  };
+  add(verdict.hint);
+  add(DescribeAgreement(verdict));
+  add(std::to_string(counts.num_accepted) + " accepted, " + std::to_string(counts.num_waiting) +
+      " waiting, " + std::to_string(counts.num_refused) + " refused");
   return lines;
 }
 

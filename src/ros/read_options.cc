@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ros/read_options.h"
 
+#include <algorithm>
 #include <sstream>
 
 namespace plumb::ros_adapter {
@@ -65,6 +66,14 @@ std::string DescribeMismatch(const XmlRpcValue& parameter, const char* expected)
   parameter.write(text);
   text << " (" << NameOfType(parameter) << ')';
   return text.str();
+}
+
+std::vector<std::string> WithParameterNames(std::vector<std::string> problems) {
+  for (std::string& problem : problems) {
+    const auto end_of_name = std::find(problem.begin(), problem.end(), ' ');
+    std::replace(problem.begin(), end_of_name, '.', '/');
+  }
+  return problems;
 }
 
 void OptionReader::RefuseUnknown() {

@@ -69,6 +69,10 @@ class OptionReader {
   std::set<std::string> known_;
 };
 
+// Problems as options structs tell them, "gaps.min_views must be ...", with the names that ROS has
+// for nested parameters, "gaps/min_views".
+std::vector<std::string> WithParameterNames(std::vector<std::string> problems);
+
 // The options as the parameters in the namespace of `handle` set them, defaults where none
 // are. Throws std::invalid_argument naming each parameter that is unknown, of the wrong type
 // or out of bounds, with its value.
@@ -76,6 +80,7 @@ template <typename Options>
 Options ReadOptions(const ros::NodeHandle& handle) {
   Options options;
   const std::string& name = handle.getNamespace();
+  const std::string file = "config" + name.substr(name.rfind('/')) + ".yaml";
   std::vector<std::string> problems;
   XmlRpc::XmlRpcValue tree;
   if (ros::param::get(name, tree)) {
@@ -83,8 +88,9 @@ Options ReadOptions(const ros::NodeHandle& handle) {
     VisitFields(options, reader);
     reader.RefuseUnknown();
   }
-  if (problems.empty()) problems = options.Problems();
-  ThrowIfProblems("parameters of " + name, problems);
+  if (problems.empty()) problems = WithParameterNames(options.Problems());
+  ThrowIfProblems("parameters of " + name + " (" + file + " or the file the launch was given)",
+                  problems);
   return options;
 }
 

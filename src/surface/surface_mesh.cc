@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "image/parallel_for.h"
 #include "surface/outward_face.h"
@@ -30,24 +31,22 @@ SurfaceMesh::SurfaceMesh(const SurfaceOptions& options)
     : block_side_(options.block_side),
       num_threads_(options.num_threads),
       max_edge_ratio_(options.max_edge_ratio),
-      islands_(options.min_island_faces) {}
+      islands_(options.min_island_faces),
+      spikes_(options.max_spike_ratio) {}
 
 MeshDelta SurfaceMesh::Update(const LabelledCells& cells) {
   std::vector<BorderFace> border = FindBorder(cells);
   Decide(cells, &border);
   AttachFaces(cells.scene(), border);
   RemoveDetached();
-  MoveRedrawn(cells);
-  std::vector<FaceIdx> candidates = islands_.Update(touched_slots_, &pool_);
-  candidates.insert(candidates.end(), added_.begin(), added_.end());
-
   MeshDelta delta;
-  Publish(candidates, &delta);
-  MarkRedrawn(cells);
+  Publish(cells.scene(), FindCandidates(cells.scene()), &delta);
+  SendRedrawn(cells);
   delta.blocks = MakeBlocks(cells.scene(), {dirty_blocks_.begin(), dirty_blocks_.end()});
   unpublished_.clear();
   added_.clear();
   touched_slots_.clear();
+  checked_slots_.clear();
   dirty_blocks_.clear();
   return delta;
 }
@@ -121,11 +120,10 @@ void SurfaceMesh::Decide(const LabelledCells& cells, std::vector<BorderFace>* bo
     for (int i = begin; i < end; ++i) {
       BorderFace& face = (*border)[static_cast<std::size_t>(i)];
       face.known = pool_.FindDetached(face.slots);
-      face.is_kept = face.known != kNoFace && !cells.IsReseen(face.slots[0]) &&
-                     !cells.IsReseen(face.slots[1]) && !cells.IsReseen(face.slots[2]);
-      if (face.is_kept) continue;
-      ++num_checked[static_cast<std::size_t>(begin / kFacesOfPart)];
-      face.is_kept = support.IsSupported(face.slots);
+      face.is_checked = face.known == kNoFace || cells.IsReseen(face.slots[0]) ||
+                        cells.IsReseen(face.slots[1]) || cells.IsReseen(face.slots[2]);
+      if (face.is_checked) ++num_checked[static_cast<std::size_t>(begin / kFacesOfPart)];
+      face.is_kept = !face.is_checked || support.IsSupported(face.slots);
     }
   });
   num_checked_ = std::accumulate(num_checked.begin(), num_checked.end(), std::size_t{0});
@@ -134,10 +132,13 @@ void SurfaceMesh::Decide(const LabelledCells& cells, std::vector<BorderFace>* bo
 void SurfaceMesh::AttachFaces(const RayScene& scene, const std::vector<BorderFace>& border) {
   for (const BorderFace& face : border) {
     if (!face.is_kept) continue;
-    if (face.known != kNoFace) {
-      pool_.Attach(face.known, face.arc);
-    } else {
+    if (face.known == kNoFace) {
       AddFace(scene, face.arc, face.slots);
+      continue;
+    }
+    pool_.Attach(face.known, face.arc);
+    if (face.is_checked) {
+      checked_slots_.insert(checked_slots_.end(), face.slots.begin(), face.slots.end());
     }
   }
 }
@@ -159,37 +160,49 @@ void SurfaceMesh::AddFace(const RayScene& scene, std::uint32_t arc, const FaceSl
   touched_slots_.insert(touched_slots_.end(), slots.begin(), slots.end());
 }
 
-// Moves the faces of landmarks that are drawn elsewhere to the blocks they now lie in.
-void SurfaceMesh::MoveRedrawn(const LabelledCells& cells) {
+// Published faces of landmarks that are drawn elsewhere, in the blocks they now lie in. What is not
+// published stays in its block until it is.
+void SurfaceMesh::SendRedrawn(const LabelledCells& cells) {
   for (const Slot slot : cells.redrawn()) {
     for (const FaceIdx face : pool_.AroundSlot(slot)) {
-      const BlockId block = BlockOf(cells.scene(), pool_[face].slots);
-      if (block == pool_[face].block) continue;
-      if (pool_[face].is_published) dirty_blocks_.insert({pool_[face].block, block});
-      pool_.MoveTo(face, block);
+      if (!pool_[face].is_published) continue;
+      dirty_blocks_.insert(pool_[face].block);
+      UpdateBlock(cells.scene(), face);
+      dirty_blocks_.insert(pool_[face].block);
     }
   }
 }
 
-void SurfaceMesh::MarkRedrawn(const LabelledCells& cells) {
-  for (const Slot slot : cells.redrawn()) {
-    for (const FaceIdx face : pool_.AroundSlot(slot)) {
-      if (pool_[face].is_published) dirty_blocks_.insert(pool_[face].block);
-    }
-  }
+void SurfaceMesh::UpdateBlock(const RayScene& scene, FaceIdx face) {
+  const BlockId block = BlockOf(scene, pool_[face].slots);
+  if (block != pool_[face].block) pool_.MoveTo(face, block);
 }
 
-// Compares faces that are new or whose mark changed, and those that are gone, with what was sent.
-void SurfaceMesh::Publish(const std::vector<FaceIdx>& faces, MeshDelta* delta) {
+// Faces that are new, or whose marks changed; some of them twice.
+std::vector<FaceIdx> SurfaceMesh::FindCandidates(const RayScene& scene) {
+  std::vector<FaceIdx> candidates = islands_.Update(touched_slots_, &pool_);
+  candidates.insert(candidates.end(), added_.begin(), added_.end());
+  std::vector<Slot> slots = touched_slots_;
+  slots.insert(slots.end(), checked_slots_.begin(), checked_slots_.end());
+  const std::vector<FaceIdx> marked = spikes_.Update(std::move(slots), scene, pool_);
+  candidates.insert(candidates.end(), marked.begin(), marked.end());
+  return candidates;
+}
+
+// Compares faces that are new or whose marks changed, and those that are gone, with what was sent.
+void SurfaceMesh::Publish(const RayScene& scene,
+                          const std::vector<FaceIdx>& faces,
+                          MeshDelta* delta) {
   for (const FaceIdx idx : faces) {
     const Face& face = pool_[idx];
-    if (face.is_published == !face.is_island) continue;
+    if (face.is_published == IsShown(face)) continue;
     if (face.is_published) {
       unpublished_[face.key] = face.block;
       pool_.SetPublished(idx, false);
       continue;
     }
     pool_.SetPublished(idx, true);
+    UpdateBlock(scene, idx);
     const auto before = unpublished_.find(face.key);
     if (before == unpublished_.end()) {
       delta->faces_added.push_back(face.key);

@@ -13,6 +13,7 @@
 #include "surface/face_support.h"
 #include "surface/islands.h"
 #include "surface/labelled_cells.h"
+#include "surface/spikes.h"
 
 namespace plumb {
 
@@ -37,6 +38,7 @@ class SurfaceMesh {
     std::uint32_t arc = kNoFaceArc;  // That of the occupied side.
     FaceSlots slots = {kNoSlot, kNoSlot, kNoSlot};
     FaceIdx known = kNoFace;  // The detached face that it is.
+    bool is_checked = false;  // It is new, or a corner of it is reseen.
     bool is_kept = false;
   };
 
@@ -52,10 +54,12 @@ class SurfaceMesh {
   void AttachFaces(const RayScene& scene, const std::vector<BorderFace>& border);
   void RemoveDetached();
   void AddFace(const RayScene& scene, std::uint32_t arc, const FaceSlots& slots);
-  void MoveRedrawn(const LabelledCells& cells);
-  void MarkRedrawn(const LabelledCells& cells);
+  std::vector<FaceIdx> FindCandidates(const RayScene& scene);
+  bool IsShown(const Face& face) const { return !face.is_island && !spikes_.HasSpike(face.slots); }
+  void SendRedrawn(const LabelledCells& cells);
+  void UpdateBlock(const RayScene& scene, FaceIdx face);
   std::vector<MeshBlock> MakeBlocks(const RayScene& scene, const std::vector<BlockId>& ids) const;
-  void Publish(const std::vector<FaceIdx>& faces, MeshDelta* delta);
+  void Publish(const RayScene& scene, const std::vector<FaceIdx>& faces, MeshDelta* delta);
   BlockId BlockOf(const RayScene& scene, const FaceSlots& slots) const;
   MeshBlock MakeBlock(const RayScene& scene, const BlockId& id) const;
 
@@ -63,6 +67,7 @@ class SurfaceMesh {
   int num_threads_;
   double max_edge_ratio_;
   IslandFinder islands_;
+  SpikeFinder spikes_;
   FacePool pool_;
   std::size_t num_published_ = 0;
   std::size_t num_checked_ = 0;
@@ -71,7 +76,8 @@ class SurfaceMesh {
   std::map<FaceKey, BlockId> unpublished_;  // Were in the mesh that was last sent.
   std::vector<FaceIdx> detached_;           // Some of them attached again.
   std::vector<FaceIdx> added_;
-  std::vector<Slot> touched_slots_;
+  std::vector<Slot> touched_slots_;  // Of faces that came or went.
+  std::vector<Slot> checked_slots_;  // Of faces that were there, but are otherwise.
   std::set<BlockId> dirty_blocks_;
 };
 

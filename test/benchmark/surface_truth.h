@@ -22,6 +22,7 @@
 #include "surface/labelled_cells.h"
 #include "surface/outward_face.h"
 #include "surface/ray_cast.h"
+#include "surface/spikes.h"
 #include "test/benchmark/cpu_watch.h"
 #include "test/surface/full_ray_cast.h"
 
@@ -31,7 +32,8 @@ using LabelOf = std::function<bool(Cell)>;  // Whether a cell is free.
 
 // The faces of a labelling after the same filters as the product's.
 inline std::vector<FaceSlots> KeptFaces(const LabelledCells& cells, const LabelOf& is_free) {
-  FaceSupport support(cells.scene(), cells.options().max_edge_ratio);
+  const RayScene& scene = cells.scene();
+  FaceSupport support(scene, cells.options().max_edge_ratio);
   FacePool pool;
   std::vector<Slot> slots;
   std::uint32_t arc = 0;
@@ -41,14 +43,18 @@ inline std::vector<FaceSlots> KeptFaces(const LabelledCells& cells, const LabelO
       if (!is_free(cell->neighbor(i))) continue;
       const FaceSlots face = OutwardFace(cell, i);
       if (!support.IsSupported(face)) continue;
-      pool.Add(arc++, face, {}, {});
+      const FaceKey key = {scene.IdOf(face[0]), scene.IdOf(face[1]), scene.IdOf(face[2])};
+      pool.Add(arc++, face, key, {});
       slots.insert(slots.end(), face.begin(), face.end());
     }
   }
   IslandFinder(cells.options().min_island_faces).Update(slots, &pool);
+  SpikeFinder spikes(cells.options().max_spike_ratio);
+  spikes.Update(slots, scene, pool);
   std::vector<FaceSlots> kept;
   for (FaceIdx face = 0; face < pool.capacity(); ++face) {
-    if (!pool[face].is_island) kept.push_back(pool[face].slots);
+    if (!pool[face].is_island && !spikes.HasSpike(pool[face].slots))
+      kept.push_back(pool[face].slots);
   }
   return kept;
 }

@@ -176,6 +176,20 @@ TEST(DrawRefused, PutsThePhotoBetweenThoseBeforeAndAfter) {
   EXPECT_EQ(DrawRefused({{PhotoId{1}, {}}}, {}, MakeHeader()).markers.size(), 1U);
 }
 
+TEST(DrawRefused, WritesNamesOfPhotosAtOneSpotBelowEachOther) {
+  const std::map<PhotoId, Rigid3> views = {{PhotoId{2}, Rigid3()}};
+  const auto array = DrawRefused({{PhotoId{3}, {"a.jpg", "no_overlap"}},
+                                  {PhotoId{4}, {"b.jpg", "no_overlap"}},
+                                  {PhotoId{5}, {"c.jpg", "no_overlap"}}},
+                                 views,
+                                 MakeHeader());
+  ASSERT_EQ(array.markers.size(), 5U);
+  for (std::size_t i = 2; i < 4; ++i) {
+    const Marker& above = array.markers[i - 1];
+    EXPECT_LE(array.markers[i].pose.position.z, above.pose.position.z - above.scale.z);
+  }
+}
+
 TEST(GapsMsg, IsInMetresAndHasAdvice) {
   Measure measure = MakeMeasure();
   measure.metres_per_map_unit = 2.0;

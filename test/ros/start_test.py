@@ -56,8 +56,9 @@ class StartTest(wire.FolderTest):
     def test_nested_parameters_of_the_mesher_are_checked(self):
         rospy.set_param("/start/mesher/gaps", {"min_views": 1})
         said = self.end_of("mesher", palette="rainbow")
-        self.assertIn("gaps.min_views must be at least 2, but is 1", said)
+        self.assertIn("gaps/min_views must be at least 2, but is 1", said)
         self.assertIn("palette must be paper or colour_blind", said)
+        self.assertIn("config/mesher.yaml", said)
 
     def test_a_missing_session_is_named(self):
         self.assertIn("session_folder", self.end_of("mapper"))

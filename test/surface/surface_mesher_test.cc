@@ -61,6 +61,8 @@ TEST(SurfaceMesher, HasTheSameMeshWhetherRestartedOrNot) {
     map.Change();
   }
   EXPECT_GT(max_num_faces, 50U);
+  surface.max_spike_ratio = 100.0;  // Some of what came and went were spikes.
+  EXPECT_GT(MeshOf(map.replica().Snapshot(), surface).report.num_faces, replica.num_faces());
 }
 
 TEST(SurfaceMesher, HasTheSameMeshWithAnyNumberOfThreads) {
@@ -178,6 +180,60 @@ TEST(SurfaceMesher, KeepsTheWallAndNotWhatClosesItBehind) {
   }
   EXPECT_GT(towards_cameras_m2, 0.9 * 8.0);
   EXPECT_LT(away_m2, 0.01 * 8.0);  // Where noise folds it.
+}
+
+std::size_t NumFacesAt(LandmarkId landmark, const SurfaceMesher& mesher) {
+  const std::vector<FaceKey> faces = mesher.Snapshot().faces_added;
+  return static_cast<std::size_t>(
+      std::count_if(faces.begin(), faces.end(), [&](const FaceKey& key) {
+        return std::find(key.begin(), key.end(), landmark) != key.end();
+      }));
+}
+
+// 10 cm before the wall, seen from 4 m.
+TEST(SurfaceMesher, BelievesAStepWhenAThirdPhotoShowsIt) {
+  const SimpleMap wall = SimpleMap::Wall();
+  MapDelta delta = wall.Snapshot();
+  const auto middle = std::min_element(delta.landmarks_set.begin(),
+                                       delta.landmarks_set.end(),
+                                       [](const LandmarkState& a, const LandmarkState& b) {
+                                         const Eigen::Vector3d center(2, 0, 1);
+                                         return (a.position_in_map - center).norm() <
+                                                (b.position_in_map - center).norm();
+                                       });
+  const LandmarkId step = middle->id;
+  const Eigen::Vector3d on_wall = middle->position_in_map;
+  middle->position_in_map.y() -= 0.1;
+  std::vector<ObservationState>& rays = delta.observations_added;
+  rays.erase(std::remove_if(rays.begin(),
+                            rays.end(),
+                            [&](const ObservationState& ray) {
+                              return ray.landmark == step && ray.photo.value >= 2;
+                            }),
+             rays.end());
+  SurfaceOptions options = SmallOptions();
+  options.alpha_occ = 1000;  // Its few rays against those through it, of its neighbours.
+  SurfaceMesher mesher(options);
+  ASSERT_TRUE(mesher.Apply(delta).has_value());
+  EXPECT_EQ(NumFacesAt(step, mesher), 0U);
+
+  MapDelta third;
+  third.sequence = 2;
+  third.observations_added = {{step, PhotoId{2}, step.value, {0, 0}}};
+  ASSERT_TRUE(mesher.Apply(third).has_value());
+  EXPECT_GE(NumFacesAt(step, mesher), 3U);
+
+  MapDelta gone;
+  gone.sequence = 3;
+  gone.observations_removed = third.observations_added;
+  ASSERT_TRUE(mesher.Apply(gone).has_value());
+  EXPECT_EQ(NumFacesAt(step, mesher), 0U);
+
+  MapDelta moved;
+  moved.sequence = 4;
+  moved.landmarks_set = {{step, on_wall, {0, 0, 0}}};
+  ASSERT_TRUE(mesher.Apply(moved).has_value());
+  EXPECT_GE(NumFacesAt(step, mesher), 3U);
 }
 
 TEST(SurfaceMesher, MovesWithinTheLatticeChangeNoTetrahedra) {

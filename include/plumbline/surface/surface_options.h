@@ -40,6 +40,10 @@ struct SurfaceOptions {
   // Connected sets of fewer faces are dropped: they hang on wrong matches.
   int min_island_faces = 30;
 
+  // A landmark that only two photos show and that stands out of its neighbours by more, over the
+  // distance of the nearest camera, hangs on a match that nothing confirms: its faces are dropped.
+  double max_spike_ratio = 0.008;
+
   // Side of the blocks that the mesh is cut into, in the map's unit, which is seldom far from a
   // metre: the first two cameras are one unit apart.
   double block_side = 1.0;
@@ -62,6 +66,7 @@ void VisitFields(SurfaceOptions& options, Visitor&& visit) {
   visit("mesh_lattice_bits", options.mesh_lattice_bits);
   visit("max_edge_ratio", options.max_edge_ratio);
   visit("min_island_faces", options.min_island_faces);
+  visit("max_spike_ratio", options.max_spike_ratio);
   visit("block_side", options.block_side);
   visit("num_threads", options.num_threads);
 }
