@@ -1,10 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ros/mesh_conversion.h"
-
-#include <algorithm>
-#include <cmath>
-
 #include "ros/geometry_conversion.h"
 
 namespace plumb::ros_adapter {
@@ -17,21 +13,6 @@ void AppendVertices(const MeshBlock& block, plumbline::MeshBlock* msg) {
     msg->positions_in_map.insert(msg->positions_in_map.end(), position, position + 3);
     msg->colors_rgb.insert(msg->colors_rgb.end(), vertex.color.begin(), vertex.color.end());
   }
-}
-
-bool IsSound(const plumbline::MeshBlock& msg) {
-  const std::size_t num_vertices = msg.landmarks.size();
-  const std::size_t num_faces = msg.faces.size() / 3;
-  if (msg.positions_in_map.size() != 3 * num_vertices) return false;
-  if (msg.colors_rgb.size() != 3 * num_vertices || msg.faces.size() != 3 * num_faces) return false;
-  if (msg.gsd.size() != num_faces || msg.sigma_per_px.size() != num_faces) return false;
-  if (msg.num_views.size() != num_faces) return false;
-  return std::all_of(msg.positions_in_map.begin(),
-                     msg.positions_in_map.end(),
-                     [](double value) { return std::isfinite(value); }) &&
-         std::all_of(msg.faces.begin(), msg.faces.end(), [&](std::uint32_t vertex) {
-           return vertex < num_vertices;
-         });
 }
 
 plumbline::Gap ToGapMsg(const Gap& gap,
@@ -77,29 +58,6 @@ plumbline::MeshBlock ToMeshBlockMsg(const QualityBlock& block) {
     msg.num_views.push_back(quality.num_views);
   }
   return msg;
-}
-
-std::optional<QualityBlock> FromMeshBlockMsg(const plumbline::MeshBlock& msg) {
-  if (!IsSound(msg)) return std::nullopt;
-  QualityBlock block;
-  block.mesh.id = {msg.x, msg.y, msg.z};
-  for (std::size_t i = 0; i < msg.landmarks.size(); ++i) {
-    const double* position = &msg.positions_in_map[3 * i];
-    const std::uint8_t* color = &msg.colors_rgb[3 * i];
-    block.mesh.vertices.push_back({LandmarkId{msg.landmarks[i]},
-                                   {position[0], position[1], position[2]},
-                                   {color[0], color[1], color[2]}});
-  }
-  for (std::size_t i = 0; i < msg.num_views.size(); ++i) {
-    block.mesh.faces.push_back({msg.faces[3 * i], msg.faces[3 * i + 1], msg.faces[3 * i + 2]});
-    FaceQuality quality;
-    quality.gsd = msg.gsd[i];
-    quality.sigma_per_px = msg.sigma_per_px[i];
-    quality.num_views = msg.num_views[i];
-    block.qualities.push_back(quality);
-  }
-  block.shapes = ShapesOf(block.mesh);
-  return block;
 }
 
 plumbline::Gaps ToGapsMsg(const std::vector<Gap>& gaps,

@@ -17,10 +17,6 @@ namespace plumb::ros_adapter {
 // The qualities that are not known yet are those of a face that nobody sees.
 plumbline::MeshBlock ToMeshBlockMsg(const QualityBlock& block);
 
-// Nothing if arrays that belong together differ in length, a position is not finite, or a face
-// names a vertex that is not there. Shapes are computed.
-std::optional<QualityBlock> FromMeshBlockMsg(const plumbline::MeshBlock& msg);
-
 // With the advice for the camera given; without header.
 plumbline::Gaps ToGapsMsg(const std::vector<Gap>& gaps,
                           const GapOptions& options,

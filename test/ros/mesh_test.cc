@@ -12,6 +12,7 @@
 namespace plumb::ros_adapter {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using visualization_msgs::Marker;
 
@@ -39,37 +40,21 @@ std_msgs::Header MakeHeader() {
   return header;
 }
 
-TEST(MeshBlockMsg, GivesTheBlockBackToTheLastBit) {
+TEST(MeshBlockMsg, HasTheBlockToTheLastBit) {
   const QualityBlock block = TwoFaces();
-  const auto back = FromMeshBlockMsg(ToMeshBlockMsg(block));
-  ASSERT_TRUE(back.has_value());
-  EXPECT_EQ(back->mesh.id, block.mesh.id);
-  EXPECT_EQ(back->mesh.faces, block.mesh.faces);
-  EXPECT_EQ(back->qualities, block.qualities);
-  for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_EQ(back->mesh.vertices[i].landmark, block.mesh.vertices[i].landmark);
-    EXPECT_EQ(back->mesh.vertices[i].position_in_map, block.mesh.vertices[i].position_in_map);
-    EXPECT_EQ(back->mesh.vertices[i].color, block.mesh.vertices[i].color);
+  const plumbline::MeshBlock msg = ToMeshBlockMsg(block);
+  EXPECT_EQ(BlockId({msg.x, msg.y, msg.z}), block.mesh.id);
+  EXPECT_THAT(msg.landmarks, ElementsAre(10, 11, 12, 13));
+  ASSERT_EQ(msg.positions_in_map.size(), 12U);
+  for (std::size_t i = 0; i < 12; ++i) {
+    const auto axis = static_cast<Eigen::Index>(i % 3);
+    EXPECT_EQ(msg.positions_in_map[i], block.mesh.vertices[i / 3].position_in_map[axis]);
   }
-}
-
-TEST(MeshBlockMsg, IsRefusedIfItContradictsItself) {
-  const plumbline::MeshBlock good = ToMeshBlockMsg(TwoFaces());
-  plumbline::MeshBlock bad = good;
-  bad.faces[3] = 4;
-  EXPECT_FALSE(FromMeshBlockMsg(bad));
-  bad = good;
-  bad.faces.pop_back();
-  EXPECT_FALSE(FromMeshBlockMsg(bad));
-  bad = good;
-  bad.positions_in_map[2] = std::numeric_limits<double>::infinity();
-  EXPECT_FALSE(FromMeshBlockMsg(bad));
-  bad = good;
-  bad.landmarks.pop_back();
-  EXPECT_FALSE(FromMeshBlockMsg(bad));
-  bad = good;
-  bad.gsd.clear();
-  EXPECT_FALSE(FromMeshBlockMsg(bad));
+  EXPECT_THAT(msg.colors_rgb, ElementsAre(1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3));
+  EXPECT_THAT(msg.faces, ElementsAre(0, 1, 2, 1, 3, 2));
+  EXPECT_THAT(msg.gsd, ElementsAre(std::numeric_limits<float>::infinity(), 0.002F));
+  EXPECT_THAT(msg.sigma_per_px, ElementsAre(std::numeric_limits<float>::infinity(), 0.001F));
+  EXPECT_THAT(msg.num_views, ElementsAre(0, 7));
 }
 
 TEST(DrawBlock, IsAListOfTrianglesWithAColourEach) {
