@@ -164,7 +164,8 @@ def describe_times(verdicts, longest_wait_s):
              f"{work_s[middle]:.2f} s of it work"]
     if longest_wait_s > QUEUE_S:
         lines.append("Photos came faster than this computer maps them: "
-                     f"they waited up to {longest_wait_s:.0f} s in the queue")
+                     f"they waited up to {longest_wait_s:.0f} s in the queue; "
+                     "a longer --every gives it time")
     return lines
 
 

@@ -15,7 +15,7 @@ constexpr double kMaxPixels = 200e6;  // As in AnalyzePhoto.
 constexpr int kFullSize = 8;          // Eighths.
 
 std::string ProblemOfHeader(const std::vector<std::uint8_t>& bytes) {
-  if (bytes.empty()) return "the file is empty";
+  if (bytes.empty()) return "the file is empty; copy it from the camera again";
   const PhotoMetadata metadata = ReadPhotoMetadata(bytes);
   if (metadata.width_px <= 0 || metadata.height_px <= 0) {
     return "the file is no photo, or of a kind that is not read; JPEG, PNG and TIFF are";

@@ -211,7 +211,8 @@ std::optional<PhotoSize> ReadJpegSize(const std::vector<std::uint8_t>& bytes) {
 
 DecodedPhoto DecodeJpeg(const std::vector<std::uint8_t>& bytes) {
   auto reader = std::make_unique<JpegReader>(bytes);
-  if (!reader->ReadHeader()) return {nullptr, "the header of the JPEG file is damaged"};
+  if (!reader->ReadHeader())
+    return {nullptr, "the header of the JPEG file is damaged; copy the file from the camera again"};
   if (!IsGrayOrYCbCr(reader->info())) return {};
   const bool is_read = reader->ReadCoefficients();
   if (reader->errors().is_cut_off) {

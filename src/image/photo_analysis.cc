@@ -38,13 +38,16 @@ bool CheckHeader(const std::vector<std::uint8_t>& bytes,
                  PhotoSize expected,
                  PhotoAnalysis* analysis) {
   if (bytes.empty()) {
-    return Refuse(PhotoStatus::kUndecodable, "the file is empty", analysis);
+    return Refuse(
+        PhotoStatus::kUndecodable, "the file is empty; copy it from the camera again", analysis);
   }
   analysis->metadata = ReadPhotoMetadata(bytes);
   if (IsJpeg(bytes)) {
     const std::optional<PhotoSize> of_header = ReadJpegSize(bytes);
     if (!of_header) {
-      return Refuse(PhotoStatus::kUndecodable, "the header of the JPEG file is damaged", analysis);
+      return Refuse(PhotoStatus::kUndecodable,
+                    "the header of the JPEG file is damaged; copy the file from the camera again",
+                    analysis);
     }
     analysis->metadata.width_px = of_header->width_px;
     analysis->metadata.height_px = of_header->height_px;

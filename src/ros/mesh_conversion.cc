@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ros/mesh_conversion.h"
+
 #include "ros/geometry_conversion.h"
 
 namespace plumb::ros_adapter {

@@ -65,7 +65,9 @@ Json MeshSession(const SurfaceOptions& options,
   files.Add(names, frame.state());
   for (std::string& line : files.DeleteStale(frame.state())) lines.push_back(std::move(line));
   report["total_s"] = watch.Seconds();
-  report["frame"] = frame.georeference() ? frame.Name() + ", metres" : "map, scale free";
+  report["frame"] = frame.georeference()
+                        ? frame.Name() + ", metres"
+                        : "map, scale free; plumbline georeference with a survey gives metres";
   for (const std::string& name : names) report["files"].push_back(folder + '/' + name);
   report["stale"] = lines;
   if (!frame.outdated().empty()) report["outdated"] = frame.outdated();
