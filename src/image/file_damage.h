@@ -9,7 +9,7 @@
 namespace plumb {
 
 constexpr char kCutOff[] =
-    "the file ends in the middle of the picture; was it still being written?";
+    "the file ends in the middle of the picture; copy it from the camera again, or take it again";
 
 // What is wrong with the file around the pixels, in words for the pilot: the checksums of a PNG,
 // the extents of a PNG, BMP or TIFF. Empty if nothing is, and for other kinds. The decoders of

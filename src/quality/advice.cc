@@ -35,8 +35,8 @@ std::string Problem(const Gap& gap, const GapOptions& options, const Measure& me
            (gap.num_views == 1 ? " photo sees it" : " photos see it");
   }
   if (!is_metric) return "Too coarse, " + Decimal(gap.gsd) + " times the first photos' GSD";
-  return "Too coarse, " + Decimal(gap.gsd) + " mm instead of " + Decimal(options.wanted_gsd_mm) +
-         " mm";
+  return "Too coarse, " + Decimal(gap.gsd) + " mm instead of " +
+         Decimal(WantedGsd(options, measure)) + " mm";
 }
 
 std::string Way(const Gap& gap, const Measure& measure, const Rigid3& cam_from_map) {

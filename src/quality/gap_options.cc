@@ -16,6 +16,14 @@ std::vector<std::string> GapOptions::Problems() const {
                    "wanted_relative_gsd",
                    "above 0 and at most 100",
                    wanted_relative_gsd);
+  problems.Require(min_distance_m >= 0.0 && min_distance_m <= 1000.0,
+                   "min_distance_m",
+                   "0 to 1000",
+                   min_distance_m);
+  problems.Require(min_relative_distance >= 0.0 && min_relative_distance <= 1.0,
+                   "min_relative_distance",
+                   "0 to 1",
+                   min_relative_distance);
   problems.Require(min_area_share > 0.0 && min_area_share <= 100.0,
                    "min_area_share",
                    "above 0 and at most 100",

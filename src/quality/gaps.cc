@@ -14,6 +14,13 @@ namespace {
 // Faces of one gap look the same way to within this.
 constexpr double kMinSameWay = 0.5;  // Cosine of 60 degrees.
 
+// A photo is taken a little nearer than the distance that has the wanted GSD in its middle: the
+// lens has larger pixels at its border, and no face is met quite straight on.
+constexpr double kNearer = 0.85;
+
+// A gap stays the first until another is larger by so much.
+constexpr double kClearlyLarger = 2.0;
+
 // From the middle of a block's square to its edge, in sides: a photo takes in whole blocks.
 constexpr double kHalfBlock = 0.5;
 
@@ -31,10 +38,6 @@ struct BadBlock {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // Sum, weighted by area.
   bool is_taken = false;
 };
-
-double WantedGsd(const GapOptions& options, const Measure& measure) {
-  return measure.metres_per_map_unit ? options.wanted_gsd_mm : options.wanted_relative_gsd;
-}
 
 BadBlock FindBadFaces(const GapOptions& options,
                       const QualityBlock& block,
@@ -108,17 +111,16 @@ Value MedianByArea(std::vector<std::pair<Value, double>> values, double area) {
   return values.back().first;
 }
 
-// A little nearer than the distance that has the wanted GSD in the middle of the photo: the lens
-// has larger pixels at its border, and no face is met quite straight on.
-constexpr double kNearer = 0.85;
-
 // From the distance that gives the wanted GSD, or from nearer if the others were nearer.
-double WantedDistance(const Gap& gap, double wanted_gsd, const Measure& measure) {
-  const double for_gsd = kNearer * measure.DistanceFor(wanted_gsd);
-  return std::isfinite(gap.gsd) ? std::min(measure.DistanceFor(gap.gsd), for_gsd) : for_gsd;
+double WantedDistance(const Gap& gap, const GapOptions& options, const Measure& measure) {
+  const double for_gsd = kNearer * measure.DistanceFor(WantedGsd(options, measure));
+  if (!std::isfinite(gap.gsd)) return for_gsd;
+  return std::max(LeastDistance(options, measure), std::min(measure.DistanceFor(gap.gsd), for_gsd));
 }
 
-Gap Gather(const std::vector<const BadBlock*>& blocks, double wanted_gsd, const Measure& measure) {
+Gap Gather(const std::vector<const BadBlock*>& blocks,
+           const GapOptions& options,
+           const Measure& measure) {
   Gap gap;
   std::vector<std::pair<int, double>> num_views;
   std::vector<std::pair<double, double>> gsds;
@@ -138,8 +140,7 @@ Gap Gather(const std::vector<const BadBlock*>& blocks, double wanted_gsd, const 
   gap.share_unsure = unsure_area / gap.area;
   gap.num_views = MedianByArea(std::move(num_views), gap.area);
   gap.gsd = MedianByArea(std::move(gsds), gap.area);
-  gap.camera_in_map =
-      gap.center_in_map + WantedDistance(gap, wanted_gsd, measure) * gap.normal_in_map;
+  gap.camera_in_map = gap.center_in_map + WantedDistance(gap, options, measure) * gap.normal_in_map;
   return gap;
 }
 
@@ -176,6 +177,21 @@ class SeedQueue {
 
 }  // namespace
 
+double LeastDistance(const GapOptions& options, const Measure& measure) {
+  return measure.metres_per_map_unit ? options.min_distance_m / *measure.metres_per_map_unit
+                                     : options.min_relative_distance * measure.DistanceFor(1.0);
+}
+
+double FinestGsd(const GapOptions& options, const Measure& measure) {
+  return measure.GsdAt(LeastDistance(options, measure)) / kNearer;
+}
+
+double WantedGsd(const GapOptions& options, const Measure& measure) {
+  const double asked =
+      measure.metres_per_map_unit ? options.wanted_gsd_mm : options.wanted_relative_gsd;
+  return std::max(asked, FinestGsd(options, measure));
+}
+
 std::vector<Gap> FindGaps(const GapOptions& options,
                           const std::map<BlockId, QualityBlock>& blocks,
                           const Measure& measure,
@@ -188,14 +204,13 @@ std::vector<Gap> FindGaps(const GapOptions& options,
     bad_blocks.emplace(id, std::move(bad));
   }
   std::vector<Gap> gaps;
-  const double wanted_gsd = WantedGsd(options, measure);
   const double min_area = options.min_area_share * block_side * block_side;
   SeedQueue seeds(&bad_blocks);
   while (BadBlock* seed = seeds.Next()) {
-    const Gap alone = Gather({seed}, wanted_gsd, measure);
+    const Gap alone = Gather({seed}, options, measure);
     const double distance = (alone.camera_in_map - alone.center_in_map).norm();
     const double radius = measure.PhotoRadiusAt(distance) - kHalfBlock * block_side;
-    Gap gap = Gather(TakeAround(seed, radius, &bad_blocks), wanted_gsd, measure);
+    Gap gap = Gather(TakeAround(seed, radius, &bad_blocks), options, measure);
     if (gap.area >= min_area) gaps.push_back(std::move(gap));
   }
   std::stable_sort(
@@ -207,6 +222,20 @@ std::vector<Gap> FindGaps(const GapOptions& options,
   }
   gaps.resize(num_told);
   return gaps;
+}
+
+void KeepFirst(const Gap& before, std::vector<Gap>* gaps) {
+  if (gaps->empty()) return;
+  const auto distance = [&](const Gap& gap) {
+    return (gap.center_in_map - before.center_in_map).norm();
+  };
+  const auto kept = std::min_element(gaps->begin(), gaps->end(), [&](const Gap& a, const Gap& b) {
+    return distance(a) < distance(b);
+  });
+  const bool is_there = distance(*kept) <= std::sqrt(before.area) &&
+                        LookSameWay(kept->normal_in_map, before.normal_in_map);
+  if (!is_there || gaps->front().area > kClearlyLarger * kept->area) return;
+  std::rotate(gaps->begin(), kept, kept + 1);
 }
 
 }  // namespace plumb

@@ -63,7 +63,7 @@ CameraIngest::CameraIngest(const ros::NodeHandle& handle, const CameraIngestOpti
     TakeImages();
     SendDue();
     PublishPositions();
-    diagnostics_.update();
+    diagnostics_.force_update();  // Twice a second: they are what the pilot counts by.
   });
   if (watcher_) watching_ = std::thread([this] { WatchFolder(); });
 }
@@ -313,8 +313,19 @@ bool CameraIngest::IsHeard() const {
   return photo_publisher_.getNumSubscribers() >= static_cast<std::uint32_t>(options_.min_listeners);
 }
 
+bool CameraIngest::IsRecorded() const {
+  return options_.recorder_wait_s == 0.0 ||
+         photo_publisher_.getNumSubscribers() > static_cast<std::uint32_t>(options_.min_listeners);
+}
+
+// A flight does not wait for its recording for long, and not at all once it has begun.
+bool CameraIngest::MayBegin() const {
+  return has_begun_ || IsRecorded() || SteadySeconds() - start_s_ > options_.recorder_wait_s;
+}
+
 void CameraIngest::SendDue() {
-  if (!IsHeard()) return;
+  if (!IsHeard() || !MayBegin()) return;
+  has_begun_ = true;
   while (!is_stopping_) {
     std::optional<std::uint32_t> sequence;
     {
@@ -376,7 +387,13 @@ void CameraIngest::Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
     if (!trouble->text().empty()) status.mergeSummary(DiagnosticStatus::ERROR, trouble->text());
   }
   if (!camera_) status.mergeSummary(DiagnosticStatus::WARN, "no camera_info was heard yet");
-  if (!IsHeard()) status.mergeSummary(DiagnosticStatus::WARN, "nobody listens to the photos yet");
+  if (!IsHeard()) {
+    status.mergeSummary(DiagnosticStatus::WARN,
+                        "the photos wait for the mapper and the marker detector to listen");
+  } else if (!IsRecorded() && MayBegin()) {
+    status.mergeSummary(DiagnosticStatus::ERROR,
+                        "photos are not recorded: the recorder has ended. The flight goes on");
+  }
   for (const std::string& folder : folders_) status.add("photos in", folder);
   status.add("images waiting for the disk", images_.size());
   status.add("images lost", num_images_lost_);

@@ -78,6 +78,8 @@ class CameraIngest {
   };
 
   bool IsHeard() const;
+  bool IsRecorded() const;
+  bool MayBegin() const;
 
   // Publishes whatever the window says is due.
   void SendDue();
@@ -111,6 +113,8 @@ class CameraIngest {
 
   std::unique_ptr<FolderWatcher> watcher_;  // Of the watching thread.
   std::atomic<bool> is_stopping_{false};
+  std::atomic<bool> has_begun_{false};  // To send photos.
+  const double start_s_ = ros::SteadyTime::now().toSec();
   std::thread watching_;
 };
 

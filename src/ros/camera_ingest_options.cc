@@ -41,6 +41,7 @@ std::vector<std::string> CameraIngestOptions::Problems() const {
   problems.Require(
       max_subfolder_depth >= 0, "max_subfolder_depth", "0 or more", max_subfolder_depth);
   problems.Require(!camera_frame_id.empty(), "camera_frame_id", "given", camera_frame_id);
+  problems.Require(recorder_wait_s >= 0.0, "recorder_wait_s", "0 or more", recorder_wait_s);
   problems.Require(min_listeners >= 1, "min_listeners", "at least 1", min_listeners);
   problems.Require(max_in_flight >= 1, "max_in_flight", "at least 1", max_in_flight);
   problems.Require(resend_after_s > 0.0, "resend_after_s", "positive", resend_after_s);

@@ -33,8 +33,13 @@ struct CameraIngestOptions {
   // Frame of the photos: x right, y down, z forward.
   std::string camera_frame_id = "camera_optical";
 
-  // Photos are sent once so many nodes listen: the mapper, and a recorder if there is one.
+  // Photos are sent while so many nodes listen: the mapper, and the marker detector if there is
+  // one.
   int min_listeners = 1;
+
+  // The first photo waits for a recorder that listens besides them, but no longer than this [s];
+  // without one the flight goes on, and it is said. 0: there is none.
+  double recorder_wait_s = 0.0;
 
   // Photos sent and not yet answered. More keep both of the mapper's stages busy; too many
   // fill its queue.
@@ -64,6 +69,7 @@ void VisitFields(CameraIngestOptions& options, Visitor&& visit) {
   visit("camera_info_topic", options.camera_info_topic);
   visit("camera_frame_id", options.camera_frame_id);
   visit("min_listeners", options.min_listeners);
+  visit("recorder_wait_s", options.recorder_wait_s);
   visit("max_in_flight", options.max_in_flight);
   visit("resend_after_s", options.resend_after_s);
   visit("untouched_for_s", options.untouched_for_s);

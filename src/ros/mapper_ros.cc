@@ -190,7 +190,7 @@ void MapperRos::OnTimer() {
     live_->RethrowFailure();
     live_->Poll();
   }
-  diagnostics_.update();
+  diagnostics_.force_update();  // Twice a second: they are what the pilot counts by.
 }
 
 bool MapperRos::OnFinish(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {

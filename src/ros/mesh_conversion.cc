@@ -68,7 +68,7 @@ plumbline::Gaps ToGapsMsg(const std::vector<Gap>& gaps,
   plumbline::Gaps msg;
   const bool is_metric = measure.metres_per_map_unit.has_value();
   msg.is_metric = static_cast<std::uint8_t>(is_metric);
-  msg.wanted_gsd = is_metric ? options.wanted_gsd_mm : options.wanted_relative_gsd;
+  msg.wanted_gsd = WantedGsd(options, measure);
   msg.min_views = static_cast<std::uint32_t>(options.min_views);
   for (const Gap& gap : gaps) {
     msg.gaps.push_back(ToGapMsg(gap, options, measure, newest_cam_from_map));

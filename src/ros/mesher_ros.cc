@@ -7,9 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
+#include "plumbline/map/photo_verdict.h"
 #include "ros/camera_conversion.h"
 #include "ros/map_conversion.h"
 #include "ros/mesh_conversion.h"
@@ -20,9 +22,27 @@ namespace {
 constexpr std::uint32_t kDeltaQueue = 1000;
 constexpr double kComplainEvery_s = 5.0;
 
+// 0: not known.
 std::optional<double> KnownScale(double metres_per_map_unit) {
-  if (!(metres_per_map_unit > 0.0) || !std::isfinite(metres_per_map_unit)) return std::nullopt;
-  return metres_per_map_unit;
+  return metres_per_map_unit > 0.0 ? std::optional<double>(metres_per_map_unit) : std::nullopt;
+}
+
+// The first two cameras are a unit apart: less than a millimetre or more than a kilometre is no
+// flight before a facade.
+bool IsScale(double value) { return value == 0.0 || (value >= 1e-3 && value <= 1e3); }
+
+// Of a file that shows nothing there is no place.
+bool IsOfAPlace(const std::string& reason) {
+  return reason != ToString(RefusalReason::kUndecodable) &&
+         reason != ToString(RefusalReason::kWrongSize) &&
+         reason != ToString(RefusalReason::kDuplicate);
+}
+
+// Rounded up to tenths.
+std::string UpToTenths(double value) {
+  std::ostringstream text;
+  text << std::ceil(10.0 * value) / 10.0;
+  return text.str();
 }
 
 }  // namespace
@@ -99,6 +119,13 @@ void MesherRos::OnCamera(const sensor_msgs::CameraInfo& msg) {
 }
 
 void MesherRos::OnScale(const std_msgs::Float64& msg) {
+  if (!IsScale(msg.data)) {
+    ROS_ERROR_THROTTLE(kComplainEvery_s,
+                       "metres_per_map_unit: %g is left out, the scale stays as it was; send 0.001 "
+                       "to 1000, or 0 if it is not known",
+                       msg.data);
+    return;
+  }
   worker_.Push([this, scale = KnownScale(msg.data)] {
     if (scale == metres_per_map_unit_) return;
     metres_per_map_unit_ = scale;
@@ -109,7 +136,8 @@ void MesherRos::OnScale(const std_msgs::Float64& msg) {
 void MesherRos::OnVerdict(const plumbline::PhotoVerdict& msg) {
   worker_.Push([this, msg] {
     const PhotoId photo{msg.sequence};
-    const bool is_refused = msg.status == plumbline::PhotoVerdict::REFUSED;
+    const bool is_refused =
+        msg.status == plumbline::PhotoVerdict::REFUSED && IsOfAPlace(msg.reason);
     if (!is_refused && refused_.erase(photo) == 0) return;
     if (is_refused) refused_[photo] = {msg.name, msg.reason};
     is_told_ = false;
@@ -216,8 +244,10 @@ void MesherRos::TellNow() {
   is_told_ = true;
   publisher_.PublishRefused(refused_, quality_->views());
   if (!quality_->camera()) return;
-  const std::vector<Gap> gaps =
+  std::vector<Gap> gaps =
       FindGaps(look_.gaps, quality_->blocks(), look_.measure, options_.surface.block_side);
+  if (first_gap_) KeepFirst(*first_gap_, &gaps);
+  first_gap_ = gaps.empty() ? std::nullopt : std::optional<Gap>(gaps.front());
   num_gaps_ = gaps.size();
   plumbline::Gaps msg = ToGapsMsg(gaps, look_.gaps, look_.measure, NewestView());
   msg.header = publisher_.HeaderNow();
@@ -282,6 +312,11 @@ bool MesherRos::OnSetDisplay(plumbline::SetMeshDisplay::Request& request,
     (metres_per_map_unit_ ? look.gaps.wanted_gsd_mm : look.gaps.wanted_relative_gsd) =
         request.wanted_gsd;
     for (const std::string& problem : look.gaps.Problems()) problems.push_back(problem);
+    const double finest = FinestGsd(look.gaps, MakeMeasure());
+    if (quality_->camera() && request.wanted_gsd > 0.0 && request.wanted_gsd < finest) {
+      problems.push_back("no finer than " + UpToTenths(finest) +
+                         " from the least distance to the wall (gaps/min_distance_m)");
+    }
   }
   response.success = static_cast<std::uint8_t>(problems.empty());
   for (const std::string& problem : problems) {

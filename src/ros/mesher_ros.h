@@ -89,6 +89,7 @@ class MesherRos {
   bool has_map_ = false;  // That of the mapper as it runs now.
   bool is_told_ = false;  // Gaps and refused photos show what there is.
   std::size_t num_gaps_ = 0;
+  std::optional<Gap> first_gap_;  // As last told.
   Latency surface_time_;
   Latency quality_time_;
   Latency delay_;

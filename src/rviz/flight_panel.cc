@@ -159,7 +159,7 @@ void FlightPanel::ShowStatus() {
       "</tr></table>");
   trouble_->setText(QString::fromStdString(status_.trouble(now_s)));
   trouble_->setVisible(!trouble_->text().isEmpty());
-  const NextStep next = NextStepOf(status_, gaps_);
+  const NextStep next = NextStepOf(status_, gaps_, now_s);
   next_->Show(next);
   const std::size_t first_listed = next.kind == NextStep::Kind::kGap ? 1 : 0;
   if (first_listed == first_listed_gap_) return;

@@ -15,6 +15,7 @@ constexpr double kSilentAfter_s = 8.0;
 
 const char* const kIngest = "camera_ingest";
 const char* const kMapper = "mapper";
+const char* const kMesher = "mesher";
 
 std::string Words(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
@@ -43,8 +44,7 @@ void FlightStatus::OnVerdict(const plumbline::PhotoVerdict& verdict) {
 void FlightStatus::OnDiagnostics(const diagnostic_msgs::DiagnosticArray& diagnostics,
                                  double now_s) {
   for (const diagnostic_msgs::DiagnosticStatus& status : diagnostics.status) {
-    for (const char* const node :
-         {kIngest, kMapper, "marker_detector", "mesher", "georeferencer"}) {
+    for (const char* const node : {kIngest, kMapper, "marker_detector", kMesher, "georeferencer"}) {
       if (status.hardware_id != node) continue;
       NodeStatus& known = nodes_[node];
       known.heard_s = now_s;
@@ -56,11 +56,35 @@ void FlightStatus::OnDiagnostics(const diagnostic_msgs::DiagnosticArray& diagnos
       known.error = is_error ? status.message : "";
     }
   }
+  NoteFlight(now_s);
+}
+
+// Another flight has begun if fewer photos were taken than had verdicts.
+void FlightStatus::NoteFlight(double now_s) {
+  const std::optional<int> taken = num_taken(now_s);
+  if (taken && *taken >= 0 && static_cast<std::uint32_t>(*taken) < newest_photo_) {
+    newest_photo_ = 0;
+    lamp_ = Lamp::kDark;
+    sentence_ = kNoPhoto;
+    hint_.clear();
+  }
+  const int accepted = num_accepted(now_s).value_or(0);
+  if (newest_photo_ > 0 || accepted == 0) return;
+  sentence_ = "Going on: " + std::to_string(accepted) + " photos in the map";
+}
+
+bool FlightStatus::NodeStatus::IsSilent(double now_s) const {
+  return now_s - heard_s > kSilentAfter_s;
+}
+
+bool FlightStatus::IsMeshSilent(double now_s) const {
+  const auto known = nodes_.find(kMesher);
+  return known != nodes_.end() && known->second.IsSilent(now_s);
 }
 
 std::optional<double> FlightStatus::Value(const char* node, const char* key, double now_s) const {
   const auto known = nodes_.find(node);
-  if (known == nodes_.end() || now_s - known->second.heard_s > kSilentAfter_s) return std::nullopt;
+  if (known == nodes_.end() || known->second.IsSilent(now_s)) return std::nullopt;
   const auto value = known->second.values.find(key);
   if (value == known->second.values.end()) return std::nullopt;
   char* end = nullptr;
@@ -101,7 +125,7 @@ std::optional<double> FlightStatus::seconds_behind(double now_s) const {
 
 std::string FlightStatus::trouble(double now_s) const {
   for (const auto& [name, node] : nodes_) {
-    if (now_s - node.heard_s > kSilentAfter_s) return name + " is silent.";
+    if (node.IsSilent(now_s)) return name + " is silent.";
     if (!node.error.empty()) return name + ": " + node.error;
   }
   return {};

@@ -38,21 +38,29 @@ class FlightStatus {
 
   std::optional<double> seconds_behind(double now_s) const;
 
+  // No news of the mesh: what it told last may be old.
+  bool IsMeshSilent(double now_s) const;
+
   // What a node says is wrong, or which node is silent; empty if all is well.
   std::string trouble(double now_s) const;
 
  private:
+  static constexpr char kNoPhoto[] = "No photo yet";
+
   struct NodeStatus {
     std::map<std::string, std::string> values;
     std::string error;
     double heard_s = 0.0;
+
+    bool IsSilent(double now_s) const;
   };
 
+  void NoteFlight(double now_s);
   std::optional<double> Value(const char* node, const char* key, double now_s) const;
   std::optional<int> Count(const char* node, const char* key, double now_s) const;
 
   Lamp lamp_ = Lamp::kDark;
-  std::string sentence_ = "No photo yet";
+  std::string sentence_ = kNoPhoto;
   std::string hint_;
   std::uint32_t newest_photo_ = 0;
   std::map<std::string, NodeStatus> nodes_;

@@ -31,8 +31,13 @@ std::string WayText(const plumbline::Gap& gap) {
   return gap.way.empty() ? "photo from right here" : gap.way;
 }
 
-NextStep NextStepOf(const FlightStatus& status, const std::optional<plumbline::Gaps>& gaps) {
+NextStep NextStepOf(const FlightStatus& status,
+                    const std::optional<plumbline::Gaps>& gaps,
+                    double now_s) {
   if (!status.hint().empty()) return FromHint(status.hint());
+  if (status.IsMeshSilent(now_s)) {
+    return {NextStep::Kind::kNothing, "Fly on as planned", "No news of where gaps are."};
+  }
   if (!gaps) {
     return {NextStep::Kind::kNothing,
             "Take photos that overlap by two thirds",

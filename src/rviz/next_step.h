@@ -27,7 +27,9 @@ std::string GapName(std::size_t index);
 std::string WayText(const plumbline::Gap& gap);
 
 // While the last photo is not accepted, what its hint says; else the way to the worst gap. Nothing
-// for `gaps` if none were heard of.
-NextStep NextStepOf(const FlightStatus& status, const std::optional<plumbline::Gaps>& gaps);
+// for `gaps` if none were heard of. `now_s` is of the clock of `status`.
+NextStep NextStepOf(const FlightStatus& status,
+                    const std::optional<plumbline::Gaps>& gaps,
+                    double now_s);
 
 }  // namespace plumb::rviz_panel

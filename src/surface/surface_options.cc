@@ -36,7 +36,7 @@ std::vector<std::string> SurfaceOptions::Problems() const {
   problems.Require(max_edge_ratio > 0.0, "max_edge_ratio", "above 0", max_edge_ratio);
   problems.Require(min_island_faces >= 0, "min_island_faces", "at least 0", min_island_faces);
   problems.Require(max_spike_ratio > 0.0, "max_spike_ratio", "above 0", max_spike_ratio);
-  problems.Require(block_side > 0.0, "block_side", "above 0", block_side);
+  problems.Require(block_side >= 0.01, "block_side", "at least 0.01", block_side);
   problems.Require(num_threads >= 0, "num_threads", "0 or more", num_threads);
   return problems.Take();
 }

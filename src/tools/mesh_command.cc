@@ -68,8 +68,9 @@ void AddMeshCommand(CLI::App* app, ExitCode* exit_code) {
     const bool is_empty = report.at("faces") == 0;
     if (is_empty) {
       std::cerr << arguments->session
-                << ": its landmarks make no surface: photograph it from more places, then run "
-                   "plumbline reconstruct again\n";
+                << ": its landmarks make no surface, and nothing was written: photograph it from "
+                   "more places and run plumbline reconstruct again, or leave out what --set "
+                   "changes\n";
     }
     *exit_code = is_empty ? kFailed : kDone;
   });

@@ -3,6 +3,8 @@
 #include "tools/mesh_session.h"
 
 #include <filesystem>
+#include <stdexcept>
+#include <system_error>
 
 #include "plumbline/common/atomic_file.h"
 #include "plumbline/common/stopwatch.h"
@@ -41,6 +43,14 @@ void Place(const SessionFrame& frame, MeshDelta* mesh) {
   }
 }
 
+void MakeFolder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!error) return;
+  throw std::runtime_error(folder + ": cannot be made a folder: " + error.message() +
+                           "; choose another one");
+}
+
 }  // namespace
 
 Json MeshSession(const SurfaceOptions& options,
@@ -53,7 +63,9 @@ Json MeshSession(const SurfaceOptions& options,
   SurfaceUpdate update = *mesher.Apply(map.snapshot);
   Json report = ToJson(update.report);
   report["blocks"] = update.mesh.blocks.size();
-  std::filesystem::create_directories(folder);
+  report["stale"] = Json::array();
+  if (update.report.num_faces == 0) return report;
+  MakeFolder(folder);
   std::vector<std::string> names = {"mesh.ply", "mesh.obj"};
   if (frame.georeference()) names.emplace_back("frame.json");
   ExportFolder files(folder);

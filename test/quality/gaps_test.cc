@@ -109,6 +109,72 @@ TEST_F(Gaps, AreWhereThePhotosAreTooCoarse) {
   EXPECT_THAT(Find(), testing::IsEmpty());
 }
 
+// 0.5 mm would take 0.2 m.
+TEST_F(Gaps, NeverAskForAPhotoFromTooNear) {
+  for (double x = -4.0; x < 16.0; x += 0.7) Photograph({x, -8, 2});
+  options_.wanted_gsd_mm = 0.5;
+  options_.min_distance_m = 3.0;
+  const double finest_mm = 1000.0 * 3.0 / 500.0 / 0.85;
+  EXPECT_NEAR(WantedGsd(options_, measure_), finest_mm, 1e-9);
+  const std::vector<Gap> gaps = Find();
+  ASSERT_THAT(gaps, testing::Not(testing::IsEmpty()));
+  for (const Gap& gap : gaps) {
+    EXPECT_NEAR((gap.camera_in_map - gap.center_in_map).norm(), 3.0, 1e-9);
+  }
+  EXPECT_THAT(Problem(gaps[0], options_, measure_), testing::HasSubstr("instead of 7.1 mm"));
+  measure_.metres_per_map_unit = std::nullopt;  // The first photos: from 10 units.
+  options_.wanted_relative_gsd = 0.01;
+  options_.min_relative_distance = 0.25;
+  EXPECT_NEAR(LeastDistance(options_, measure_), 2.5, 1e-9);
+  EXPECT_NEAR(WantedGsd(options_, measure_), 0.25 / 0.85, 1e-9);
+}
+
+// There were photos from nearer than a gap may ask for.
+TEST_F(Gaps, AskForMorePhotosFromTheLeastDistanceWhereOthersWereNearer) {
+  for (double x = 0.0; x < 3.0; x += 2.0) Photograph({x, -1, 2});
+  options_.min_distance_m = 3.0;
+  for (const Gap& gap : Find()) {
+    EXPECT_GE((gap.camera_in_map - gap.center_in_map).norm(), 3.0 - 1e-9);
+  }
+}
+
+Gap MakeGap(double x, double area) {
+  Gap gap;
+  gap.center_in_map = {x, 0, 0};
+  gap.normal_in_map = {0, -1, 0};
+  gap.area = area;
+  return gap;
+}
+
+std::vector<double> PlacesOf(const std::vector<Gap>& gaps) {
+  std::vector<double> places;
+  for (const Gap& gap : gaps) places.push_back(gap.center_in_map.x());
+  return places;
+}
+
+TEST(KeepFirst, PutsTheGapFirstThatWasFirstBefore) {
+  std::vector<Gap> gaps = {MakeGap(20, 5), MakeGap(10, 4), MakeGap(0.5, 3)};
+  KeepFirst(MakeGap(0, 4), &gaps);
+  EXPECT_THAT(PlacesOf(gaps), testing::ElementsAre(0.5, 20, 10));
+}
+
+TEST(KeepFirst, LetsALargerOneBeFirst) {
+  std::vector<Gap> gaps = {MakeGap(20, 5), MakeGap(0.5, 2)};
+  KeepFirst(MakeGap(0, 4), &gaps);
+  EXPECT_THAT(PlacesOf(gaps), testing::ElementsAre(20, 0.5));
+}
+
+TEST(KeepFirst, LetsGoOfAGapThatIsClosedOrTurnedElsewhere) {
+  std::vector<Gap> gaps = {MakeGap(20, 5), MakeGap(10, 4), MakeGap(0.5, 3)};
+  gaps[2].normal_in_map = {1, 0, 0};
+  KeepFirst(MakeGap(0, 4), &gaps);
+  KeepFirst(MakeGap(13, 4), &gaps);
+  EXPECT_THAT(PlacesOf(gaps), testing::ElementsAre(20, 10, 0.5));
+  std::vector<Gap> none;
+  KeepFirst(MakeGap(0, 4), &none);
+  EXPECT_THAT(none, testing::IsEmpty());
+}
+
 // A wall that is too coarse all over takes as many gaps as photos, not as blocks.
 TEST_F(Gaps, AreAsLargeAsAPhotoTakesIn) {
   for (double x = -4.0; x < 16.0; x += 0.7) Photograph({x, -8, 2});

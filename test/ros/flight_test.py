@@ -9,6 +9,7 @@ import subprocess
 import unittest
 
 import rosgraph
+import rosnode
 import rospy
 import rostest
 from plumbline.msg import MapDelta, Photo, PhotoVerdict
@@ -175,6 +176,22 @@ class FlightTest(wire.FolderTest):
         self.wait_for_accepted(names)
         self.wait_for_verdicts(verdicts)
         self.assertEqual(latest(self.verdicts.all()), verdicts)
+
+    def test_a_flight_with_blanks_in_its_path_goes_on_when_the_recorder_is_killed(self):
+        self.session = self.folder / "flight 3 of today"
+        flight = self.fly(record="true")
+        first, rest = self.source[:2], self.source[2:]
+        for photo in first:
+            self.leave(photo.name, photo.read_bytes())
+        self.wait_for_accepted([photo.name for photo in first])
+        kill_node([name for name in rosnode.get_node_names() if "record_flight" in name][0])
+        for photo in rest:
+            self.leave(photo.name, photo.read_bytes())
+        self.wait_for_accepted([photo.name for photo in self.source])
+        wire.wait_until(lambda: (self.session / "flight_1.bag.active").exists() and
+                        (self.session / "flight.bag.active").exists(), "a second recording")
+        self.stop(flight)
+        self.assertTrue((self.session / "flight.bag").exists())
 
     def test_a_killed_mapper_goes_on_with_the_map_it_had(self):
         self.fly()

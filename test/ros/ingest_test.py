@@ -69,6 +69,16 @@ class IngestTest(wire.FolderTest):
         self.answer(self.wait_for_photo("a.jpg"))
         self.assertEqual(self.wait_for_photo("c.jpg").sequence, 3)
 
+    def test_a_flight_begins_without_a_recorder_that_does_not_come_and_says_so(self):
+        diagnostics = wire.Diagnostics()
+        self.addCleanup(diagnostics.close)
+        self.start(recorder_wait_s=2.0)
+        (self.card / "a.jpg").write_bytes(wire.JPEG)
+        self.wait_for_photo("a.jpg")
+        diagnostics.wait_for_error("photos are not recorded")
+        (self.card / "b.jpg").write_bytes(wire.JPEG + b"b\xff\xd9")
+        self.wait_for_photo("b.jpg")
+
     def test_after_a_restart_the_numbers_go_on_and_what_is_stored_is_not_sent(self):
         node = self.start()
         (self.card / "a.jpg").write_bytes(wire.JPEG)

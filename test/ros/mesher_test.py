@@ -210,16 +210,19 @@ class MesherTest(unittest.TestCase):
         self.assertEqual(sum(len(marker.colors) for marker in shown), num_faces)
         legend.wait(len, "a legend")
         self.assertFalse(gaps.wait(len, "gaps")[-1].is_metric)
-        self.publisher("metres_per_map_unit", Float64, latch=True).publish(0.5)
+        self.publisher("metres_per_map_unit", Float64, latch=True).publish(2.0)
         gaps.wait(lambda messages: messages[-1].is_metric, "gaps in millimetres")
-        # 4 units of half a metre at 500 px: 4 mm.
+        # 4 units of two metres at 500 px: 16 mm.
         display = rospy.ServiceProxy(f"{self.namespace}/set_mesh_display", SetMeshDisplay)
-        self.assertTrue(display(2.0, "colour_blind").success)
-        coarse = gaps.wait(lambda messages: messages[-1].wanted_gsd == 2.0 and messages[-1].gaps,
+        self.assertTrue(display(8.0, "colour_blind").success)
+        coarse = gaps.wait(lambda messages: messages[-1].wanted_gsd == 8.0 and messages[-1].gaps,
                            "gaps that are too coarse")[-1].gaps[0]
         self.assertFalse(coarse.is_unsure)
-        self.assertAlmostEqual(coarse.gsd, 4.0, delta=0.2)
+        self.assertAlmostEqual(coarse.gsd, 16.0, delta=0.8)
         self.assertIn("closer", coarse.advice)
+        answer = display(4.0, "")  # From 2 m: 4 mm in the middle of the photo alone.
+        self.assertFalse(answer.success)
+        self.assertIn("no finer than 4.8", answer.message)
         answer = display(-1.0, "rainbow")
         self.assertFalse(answer.success)
         self.assertIn("rainbow", answer.message)

@@ -268,7 +268,7 @@ TEST_F(PanelTest, WhatIsPressedIsLargeEnoughForAGlove) {
 
 TEST_F(PanelTest, CountsAndDelayAreWhatTheNodesSay) {
   diagnostic_msgs::DiagnosticArray array;
-  array.status.resize(2);
+  array.status.resize(3);
   const auto add = [](const char* key, const char* value, auto* status) {
     diagnostic_msgs::KeyValue pair;
     pair.key = key;
@@ -282,6 +282,9 @@ TEST_F(PanelTest, CountsAndDelayAreWhatTheNodesSay) {
   add("photos accepted", "8", &array.status[1]);
   add("photos refused", "1", &array.status[1]);
   add("photos waiting", "0", &array.status[1]);
+  array.status[2].hardware_id = "mesher";
+  gaps_.publish(TwoGaps());
+  WaitFor([] { return TextOf("next_action") == "Fly 3.0 m right"; }, "the worst gap");
   diagnostics_.publish(array);
   WaitFor([] { return CountOf("behind") == "1.3 s"; }, "the delay");
   EXPECT_EQ(CountOf("taken"), "12");
@@ -299,6 +302,16 @@ TEST_F(PanelTest, CountsAndDelayAreWhatTheNodesSay) {
   // Nobody speaks any more: no old figure stays.
   WaitFor([] { return CountOf("behind") == "–"; }, "the silence");
   EXPECT_THAT(TextOf("trouble"), testing::HasSubstr("is silent"));
+  EXPECT_EQ(TextOf("next_action"), "Fly on as planned");  // No old advice, either.
+
+  // Another flight, on a session that has photos.
+  array.status[0].values[0].value = "2";
+  array.status[1].values[0].value = "2";
+  array.status[1].level = diagnostic_msgs::DiagnosticStatus::OK;
+  diagnostics_.publish(array);
+  WaitFor([] { return TextOf("lamp") == "Going on: 2 photos in the map"; }, "another flight");
+  Publish(3, plumbline::PhotoVerdict::ACCEPTED, "none", "");
+  WaitFor([] { return TextOf("lamp") == "photo3.jpg accepted"; }, "its first photo");
 }
 
 TEST_F(PanelTest, ALayerIsChosenByAPress) {

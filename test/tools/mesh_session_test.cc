@@ -155,12 +155,23 @@ TEST_F(MeshSessionTest, FilesOfAnotherGeoreferenceDoNotStayBeside) {
   EXPECT_TRUE(std::filesystem::exists(folder + "/points.ply"));
 }
 
-TEST_F(MeshSessionTest, OfAnEmptySessionIsAnEmptyMesh) {
+TEST_F(MeshSessionTest, OfAnEmptySessionThereIsNone) {
   const SessionStore store(folder_, MakeCamera());
   const nlohmann::ordered_json report =
       MeshSession(WideOptions(), store, ReadSessionMap(store), folder_ + "/export");
   EXPECT_EQ(report.at("faces"), 0);
-  EXPECT_TRUE(std::filesystem::exists(folder_ + "/export/mesh.ply"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ + "/export"));
+}
+
+TEST_F(MeshSessionTest, NamesAFolderThatIsAFile) {
+  const SessionStore store = MakeWallSession(folder_);
+  std::ofstream(folder_ + "/mesh") << "text";
+  try {
+    MeshSession(WideOptions(), store, ReadSessionMap(store), folder_ + "/mesh");
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr(folder_ + "/mesh: cannot be made a folder"));
+  }
 }
 
 }  // namespace

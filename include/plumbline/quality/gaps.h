@@ -23,6 +23,13 @@ struct GapOptions {
   // The same while the map is not metric: multiples of the first photos' GSD.
   double wanted_relative_gsd = 1.5;
 
+  // No gap asks for a photo from nearer [m]: the pilot keeps clear of the wall. A GSD that would
+  // need it is not wanted.
+  double min_distance_m = 2.0;
+
+  // The same while the map is not metric: share of the first photos' distance.
+  double min_relative_distance = 0.33;
+
   // Smaller gaps are not told [share of a square with the sides of a block].
   double min_area_share = 0.15;
 
@@ -42,10 +49,20 @@ void VisitFields(GapOptions& options, Visitor&& visit) {
   visit("min_views", options.min_views);
   visit("wanted_gsd_mm", options.wanted_gsd_mm);
   visit("wanted_relative_gsd", options.wanted_relative_gsd);
+  visit("min_distance_m", options.min_distance_m);
+  visit("min_relative_distance", options.min_relative_distance);
   visit("min_area_share", options.min_area_share);
   visit("min_share_of_largest", options.min_share_of_largest);
   visit("max_gaps", options.max_gaps);
 }
+
+// Which no gap asks a photo from nearer than [map units].
+double LeastDistance(const GapOptions& options, const Measure& measure);
+
+// The finest GSD that a photo from there has all over, and the one that is wanted, which is no
+// finer; as Measure::Gsd gives it.
+double FinestGsd(const GapOptions& options, const Measure& measure);
+double WantedGsd(const GapOptions& options, const Measure& measure);
 
 // An area that needs another photo, and where to take it from.
 struct Gap {
@@ -67,6 +84,10 @@ std::vector<Gap> FindGaps(const GapOptions& options,
                           const std::map<BlockId, QualityBlock>& blocks,
                           const Measure& measure,
                           double block_side);
+
+// Puts the gap first that was first before, if it is still there and no other is twice as large:
+// the pilot is on the way to it.
+void KeepFirst(const Gap& before, std::vector<Gap>* gaps);
 
 // How to get from a camera to where a gap wants it, along the axes of that camera [map units].
 struct Move {
