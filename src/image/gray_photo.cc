@@ -18,7 +18,8 @@ std::string ProblemOfHeader(const std::vector<std::uint8_t>& bytes) {
   if (bytes.empty()) return "the file is empty; copy it from the camera again";
   const PhotoMetadata metadata = ReadPhotoMetadata(bytes);
   if (metadata.width_px <= 0 || metadata.height_px <= 0) {
-    return "the file is no photo, or of a kind that is not read; JPEG, PNG and TIFF are";
+    return "the file is no photo, or of a kind that is not read; let the camera save JPEG, PNG or "
+           "TIFF";
   }
   if (static_cast<double>(metadata.width_px) * metadata.height_px > kMaxPixels) {
     return "the file claims more than 200 megapixels";

@@ -59,15 +59,17 @@ void FlightStatus::OnDiagnostics(const diagnostic_msgs::DiagnosticArray& diagnos
   NoteFlight(now_s);
 }
 
-// Another flight has begun if fewer photos were taken than had verdicts.
+// Another flight has begun if fewer photos were taken than before. Not if fewer than have verdicts:
+// the verdict on a broken file comes before the node that took it is heard.
 void FlightStatus::NoteFlight(double now_s) {
-  const std::optional<int> taken = num_taken(now_s);
-  if (taken && *taken >= 0 && static_cast<std::uint32_t>(*taken) < newest_photo_) {
+  const int taken = num_taken(now_s).value_or(last_num_taken_);
+  if (taken < last_num_taken_) {
     newest_photo_ = 0;
     lamp_ = Lamp::kDark;
     sentence_ = kNoPhoto;
     hint_.clear();
   }
+  last_num_taken_ = taken;
   const int accepted = num_accepted(now_s).value_or(0);
   if (newest_photo_ > 0 || accepted == 0) return;
   sentence_ = "Going on: " + std::to_string(accepted) + " photos in the map";

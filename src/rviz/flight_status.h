@@ -63,6 +63,7 @@ class FlightStatus {
   std::string sentence_ = kNoPhoto;
   std::string hint_;
   std::uint32_t newest_photo_ = 0;
+  int last_num_taken_ = 0;  // Also of a node that is silent since.
   std::map<std::string, NodeStatus> nodes_;
 };
 

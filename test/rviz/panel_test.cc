@@ -305,6 +305,14 @@ TEST_F(PanelTest, CountsAndDelayAreWhatTheNodesSay) {
   EXPECT_EQ(TextOf("next_action"), "Fly on as planned");  // No old advice, either.
 
   // Another flight, on a session that has photos.
+  diagnostics_.publish(array);
+  WaitFor([] { return CountOf("taken") == "12"; }, "the nodes again");
+  // A verdict may come before its photo is counted.
+  Publish(20, plumbline::PhotoVerdict::ACCEPTED, "none", "");
+  WaitFor([] { return TextOf("lamp") == "photo20.jpg accepted"; }, "a verdict");
+  diagnostics_.publish(array);
+  WaitFor([] { return TextOf("trouble") == "mapper: the disk is full"; }, "the nodes");
+  EXPECT_EQ(TextOf("lamp"), "photo20.jpg accepted");
   array.status[0].values[0].value = "2";
   array.status[1].values[0].value = "2";
   array.status[1].level = diagnostic_msgs::DiagnosticStatus::OK;
