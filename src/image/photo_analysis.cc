@@ -62,9 +62,8 @@ bool CheckHeader(const std::vector<std::uint8_t>& bytes,
   if (!damage.empty()) return Refuse(PhotoStatus::kUndecodable, std::move(damage), analysis);
   if (size.width_px <= 0 || size.height_px <= 0) {
     return Refuse(PhotoStatus::kUndecodable,
-                  std::string("the file is no photo, or of a kind that is not read; let the camera "
-                              "save JPEG (read are ") +
-                      kPhotoKinds + ")",
+                  std::string("the file is no photo, or of a kind that is not read (") +
+                      kPhotoKinds + " are); let the camera save JPEG",
                   analysis);
   }
   if (size.width_px == expected.width_px && size.height_px == expected.height_px) return true;
