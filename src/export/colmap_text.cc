@@ -4,14 +4,12 @@
 
 #include <array>
 #include <charconv>
-#include <filesystem>
-#include <stdexcept>
-#include <system_error>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "plumbline/common/atomic_file.h"
+#include "plumbline/export/folder.h"
 
 namespace plumb {
 namespace {
@@ -162,12 +160,7 @@ Camera CameraOf(const MapDelta& snapshot, const Camera& camera) {
 }
 
 void ExportColmapText(const MapDelta& snapshot, const Camera& camera, const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) {
-    throw std::runtime_error(folder + ": cannot make this folder: " + error.message() +
-                             "; make its parent writable or choose another folder");
-  }
+  MakeExportFolder(folder);
   const Camera refined = CameraOf(snapshot, camera);
   const Model model = LinkUp(snapshot, refined);
   WriteFileAtomically(folder + "/cameras.txt", CamerasText(refined));

@@ -115,8 +115,7 @@ cv::Mat DrawLegend(Layer layer,
     text.title.replace(red, 6, ", yellow ");
   }
   if (layer == Layer::kGsd) {
-    const double wanted = is_metric ? options.wanted_gsd_mm : options.wanted_relative_gsd;
-    DrawWanted(PlaceOnScale(scale, wanted), &picture);
+    DrawWanted(PlaceOnScale(scale, WantedGsd(options, measure)), &picture);
   }
   Write(text.title, {kLegendWidth_px / 2, 24}, kText, &picture);
   return picture;

@@ -42,6 +42,7 @@ std::chrono::milliseconds Milliseconds(double seconds) {
 CameraIngest::CameraIngest(const ros::NodeHandle& handle, const CameraIngestOptions& options)
     : handle_(handle),
       options_(options),
+      gate_(options.min_listeners, options.recorder_wait_s, SteadySeconds()),
       intake_(options.session_folder),
       diagnostics_(handle, ros::NodeHandle("~")),
       window_(options.max_in_flight, options.resend_after_s) {
@@ -309,23 +310,8 @@ void CameraIngest::OnStoredPhotos(const plumbline::StoredPhotos& msg) {
   SendDue();
 }
 
-bool CameraIngest::IsHeard() const {
-  return photo_publisher_.getNumSubscribers() >= static_cast<std::uint32_t>(options_.min_listeners);
-}
-
-bool CameraIngest::IsRecorded() const {
-  return options_.recorder_wait_s == 0.0 ||
-         photo_publisher_.getNumSubscribers() > static_cast<std::uint32_t>(options_.min_listeners);
-}
-
-// A flight does not wait for its recording for long, and not at all once it has begun.
-bool CameraIngest::MayBegin() const {
-  return has_begun_ || IsRecorded() || SteadySeconds() - start_s_ > options_.recorder_wait_s;
-}
-
 void CameraIngest::SendDue() {
-  if (!IsHeard() || !MayBegin()) return;
-  has_begun_ = true;
+  if (!gate_.MaySend(photo_publisher_.getNumSubscribers(), SteadySeconds())) return;
   while (!is_stopping_) {
     std::optional<std::uint32_t> sequence;
     {
@@ -387,10 +373,12 @@ void CameraIngest::Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
     if (!trouble->text().empty()) status.mergeSummary(DiagnosticStatus::ERROR, trouble->text());
   }
   if (!camera_) status.mergeSummary(DiagnosticStatus::WARN, "no camera_info was heard yet");
-  if (!IsHeard()) {
+  const std::uint32_t num_listeners = photo_publisher_.getNumSubscribers();
+  if (!gate_.IsHeard(num_listeners)) {
     status.mergeSummary(DiagnosticStatus::WARN,
                         "the photos wait for the mapper and the marker detector to listen");
-  } else if (!IsRecorded() && MayBegin()) {
+  }
+  if (gate_.IsRecordingMissed(num_listeners, SteadySeconds())) {
     status.mergeSummary(DiagnosticStatus::ERROR,
                         "photos are not recorded: the recorder has ended. The flight goes on");
   }

@@ -23,6 +23,7 @@
 #include "plumbline/camera/camera.h"
 #include "ros/camera_ingest_options.h"
 #include "ros/folder_watcher.h"
+#include "ros/listener_gate.h"
 #include "ros/photo_intake.h"
 #include "ros/send_window.h"
 #include "ros/trouble.h"
@@ -77,10 +78,6 @@ class CameraIngest {
     std::vector<std::uint8_t> bytes;
   };
 
-  bool IsHeard() const;
-  bool IsRecorded() const;
-  bool MayBegin() const;
-
   // Publishes whatever the window says is due.
   void SendDue();
   void Send(std::uint32_t sequence);
@@ -90,6 +87,7 @@ class CameraIngest {
 
   ros::NodeHandle handle_;
   CameraIngestOptions options_;
+  ListenerGate gate_;
   PhotoIntake intake_;
   ros::Publisher photo_publisher_;
   ros::Publisher positions_publisher_;
@@ -113,8 +111,6 @@ class CameraIngest {
 
   std::unique_ptr<FolderWatcher> watcher_;  // Of the watching thread.
   std::atomic<bool> is_stopping_{false};
-  std::atomic<bool> has_begun_{false};  // To send photos.
-  const double start_s_ = ros::SteadyTime::now().toSec();
   std::thread watching_;
 };
 

@@ -223,28 +223,6 @@ double StepOf(const std::map<PhotoId, Rigid3>& cam_from_map) {
   return sum / static_cast<double>(cam_from_map.size() - 1);
 }
 
-// Places for names, each below those that are there already: photos that are refused in a row are
-// thought to be at one spot.
-class NameStack {
- public:
-  explicit NameStack(double line_height) : line_height_(line_height) {}
-
-  Eigen::Vector3d Add(Eigen::Vector3d place) {
-    const auto is_taken = [&] {
-      return std::any_of(places_.begin(), places_.end(), [&](const Eigen::Vector3d& other) {
-        return (other - place).norm() < 0.99 * line_height_;
-      });
-    };
-    while (is_taken()) place.z() -= line_height_;
-    places_.push_back(place);
-    return place;
-  }
-
- private:
-  double line_height_;
-  std::vector<Eigen::Vector3d> places_;
-};
-
 }  // namespace
 
 visualization_msgs::Marker DrawBlock(const QualityBlock& block,
@@ -310,7 +288,8 @@ visualization_msgs::MarkerArray DrawRefused(const std::map<PhotoId, RefusedPhoto
   auto crosses = MakeMarker(visualization_msgs::Marker::LINE_LIST, "refused", 0, header);
   crosses.scale.x = 0.2 * size;
   crosses.color = Ink(kRefusedInk);
-  NameStack names(0.6 * size);
+  auto next_view = cam_from_map.begin();
+  int line = -1;  // Names of photos that were refused in a row stand below each other.
   for (const auto& [photo, refused] : photos) {
     const Eigen::Vector3d place = ProbablePlace(photo, cam_from_map);
     for (int axis = 0; axis < 3; ++axis) {
@@ -320,9 +299,12 @@ visualization_msgs::MarkerArray DrawRefused(const std::map<PhotoId, RefusedPhoto
     }
     std::string reason = refused.reason;
     std::replace(reason.begin(), reason.end(), '_', ' ');
-    const Eigen::Vector3d below = place - 1.5 * size * Eigen::Vector3d::UnitZ();
+    const auto after = cam_from_map.upper_bound(photo);
+    line = after == next_view ? line + 1 : 0;
+    next_view = after;
+    const Eigen::Vector3d below = place - (1.5 + 0.6 * line) * size * Eigen::Vector3d::UnitZ();
     array.markers.push_back(Text(refused.name + ": " + reason,
-                                 names.Add(below),
+                                 below,
                                  0.5 * size,
                                  "refused_name",
                                  static_cast<int>(photo.value),

@@ -27,10 +27,6 @@ std::optional<double> KnownScale(double metres_per_map_unit) {
   return metres_per_map_unit > 0.0 ? std::optional<double>(metres_per_map_unit) : std::nullopt;
 }
 
-// The first two cameras are a unit apart: less than a millimetre or more than a kilometre is no
-// flight before a facade.
-bool IsScale(double value) { return value == 0.0 || (value >= 1e-3 && value <= 1e3); }
-
 // Of a file that shows nothing there is no place.
 bool IsOfAPlace(const std::string& reason) {
   return reason != ToString(RefusalReason::kUndecodable) &&
@@ -119,7 +115,7 @@ void MesherRos::OnCamera(const sensor_msgs::CameraInfo& msg) {
 }
 
 void MesherRos::OnScale(const std_msgs::Float64& msg) {
-  if (!IsScale(msg.data)) {
+  if (!IsScaleOrUnknown(msg.data)) {
     ROS_ERROR_THROTTLE(kComplainEvery_s,
                        "metres_per_map_unit: %g is left out, the scale stays as it was; send 0.001 "
                        "to 1000, or 0 if it is not known",
@@ -170,6 +166,7 @@ void MesherRos::BeginAnew() {
   if (camera_) quality_->SetCamera(*camera_);
   look_.measure = MakeMeasure();
   has_map_ = false;
+  first_gap_.reset();
 }
 
 void MesherRos::Apply(const MapDelta& delta, const ros::Time& stamp) {
@@ -278,9 +275,9 @@ Measure MesherRos::MakeMeasure() const {
   Measure measure;
   measure.metres_per_map_unit = metres_per_map_unit_;
   measure.noise_px = quality_->noise_px();
-  // Without a camera no face is seen, and the focal length has no effect.
+  // Without a camera no face is seen, and no GSD is too fine to be wanted.
   const std::optional<Camera>& camera = quality_->camera();
-  measure.focal_length_px = camera ? camera->MeanFocalLength() : 1.0;
+  measure.focal_length_px = camera ? camera->MeanFocalLength() : 1e9;
   if (camera) measure.half_photo_px = 0.5 * std::min(camera->width_px(), camera->height_px());
   return measure;
 }
@@ -313,9 +310,10 @@ bool MesherRos::OnSetDisplay(plumbline::SetMeshDisplay::Request& request,
         request.wanted_gsd;
     for (const std::string& problem : look.gaps.Problems()) problems.push_back(problem);
     const double finest = FinestGsd(look.gaps, MakeMeasure());
-    if (quality_->camera() && request.wanted_gsd > 0.0 && request.wanted_gsd < finest) {
+    if (request.wanted_gsd > 0.0 && request.wanted_gsd < finest) {
       problems.push_back("no finer than " + UpToTenths(finest) +
-                         " from the least distance to the wall (gaps/min_distance_m)");
+                         " from the least distance to the wall (gaps/" +
+                         (metres_per_map_unit_ ? "min_distance_m)" : "min_relative_distance)"));
     }
   }
   response.success = static_cast<std::uint8_t>(problems.empty());

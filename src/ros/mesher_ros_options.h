@@ -37,6 +37,10 @@ struct MesherRosOptions {
   std::vector<std::string> Problems() const;
 };
 
+// The first two cameras are a unit apart: less than a millimetre or more than a kilometre is no
+// flight before a facade. 0: not known.
+bool IsScaleOrUnknown(double metres_per_map_unit);
+
 // The only list of the parameter names.
 template <typename Visitor>
 void VisitFields(MesherRosOptions& options, Visitor&& visit) {

@@ -5,18 +5,15 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "common/median.h"
 
 namespace plumb {
 namespace {
 
 constexpr std::size_t kMaxRays = 2;       // More confirm each other.
 constexpr std::size_t kMinNeighbors = 3;  // Fewer tell of no plane.
-
-// Of heights in ascending order.
-double MedianOf(const std::vector<double>& heights) {
-  const std::size_t middle = heights.size() / 2;
-  return heights.size() % 2 != 0 ? heights[middle] : 0.5 * (heights[middle - 1] + heights[middle]);
-}
 
 }  // namespace
 
@@ -68,12 +65,11 @@ double SpikeFinder::HeightOf(Slot slot, const RayScene& scene, const FacePool& p
   neighbors_.erase(std::unique(neighbors_.begin(), neighbors_.end()), neighbors_.end());
   if (neighbors_.size() < kMinNeighbors) return 0.0;
   normal.normalize();
-  heights_.clear();
+  std::vector<double> heights;
   for (const Slot neighbor : neighbors_) {
-    heights_.push_back(normal.dot(scene.PlaceOf(slot) - scene.PlaceOf(neighbor)));
+    heights.push_back(normal.dot(scene.PlaceOf(slot) - scene.PlaceOf(neighbor)));
   }
-  std::sort(heights_.begin(), heights_.end());
-  return std::abs(MedianOf(heights_));
+  return std::abs(MedianOf(std::move(heights)));
 }
 
 }  // namespace plumb

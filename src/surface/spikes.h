@@ -37,7 +37,6 @@ class SpikeFinder {
   std::vector<SceneRay> rays_;  // Of the landmark at hand, as are the rest.
   std::vector<FaceIdx> ring_;
   std::vector<Slot> neighbors_;
-  std::vector<double> heights_;
 };
 
 }  // namespace plumb

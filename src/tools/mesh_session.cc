@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/mesh_session.h"
 
-#include <filesystem>
-#include <stdexcept>
-#include <system_error>
-
 #include "plumbline/common/atomic_file.h"
 #include "plumbline/common/stopwatch.h"
+#include "plumbline/export/folder.h"
 #include "plumbline/export/mesh.h"
 #include "plumbline/surface/surface_mesher.h"
 #include "tools/export_folder.h"
@@ -43,14 +40,6 @@ void Place(const SessionFrame& frame, MeshDelta* mesh) {
   }
 }
 
-void MakeFolder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (!error) return;
-  throw std::runtime_error(folder + ": cannot be made a folder: " + error.message() +
-                           "; choose another one");
-}
-
 }  // namespace
 
 Json MeshSession(const SurfaceOptions& options,
@@ -63,9 +52,11 @@ Json MeshSession(const SurfaceOptions& options,
   SurfaceUpdate update = *mesher.Apply(map.snapshot);
   Json report = ToJson(update.report);
   report["blocks"] = update.mesh.blocks.size();
-  report["stale"] = Json::array();
-  if (update.report.num_faces == 0) return report;
-  MakeFolder(folder);
+  if (update.report.num_faces == 0) {
+    report["stale"] = ExportFolder(folder).DeleteStale(frame.state());
+    return report;
+  }
+  MakeExportFolder(folder);
   std::vector<std::string> names = {"mesh.ply", "mesh.obj"};
   if (frame.georeference()) names.emplace_back("frame.json");
   ExportFolder files(folder);

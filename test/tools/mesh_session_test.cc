@@ -170,7 +170,7 @@ TEST_F(MeshSessionTest, NamesAFolderThatIsAFile) {
     MeshSession(WideOptions(), store, ReadSessionMap(store), folder_ + "/mesh");
     FAIL();
   } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr(folder_ + "/mesh: cannot be made a folder"));
+    EXPECT_THAT(error.what(), testing::HasSubstr(folder_ + "/mesh: cannot make this folder"));
   }
 }
 
